@@ -1,0 +1,3 @@
+//! Core of Loschmidt.
+#![no_std]
+#![forbid(unsafe_code)]

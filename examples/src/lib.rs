@@ -1,0 +1,1 @@
+//! Examples: programs beside this folder, scenes in `scenes/`, firmware in `embedded/`.

@@ -1,0 +1,1 @@
+//! Std-side runner of Loschmidt.

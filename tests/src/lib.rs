@@ -1,0 +1,1 @@
+//! The claims of Loschmidt, as tests: see `tests/`.

@@ -1,0 +1,2 @@
+//! The program `loschmidt`.
+fn main() {}
