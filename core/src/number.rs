@@ -291,15 +291,15 @@ fn exponent_at_least(x: f64) -> i32 {
 }
 
 impl Scale {
-    /// Units that leave headroom: positions up to 8 times `extent` (largest |coordinate|, m),
+    /// Units that leave headroom: positions up to 4 times `extent` (largest |coordinate|, m),
     /// speeds and impulses up to 16 times `speed` (of sound, m/s), density terms up to
     /// 2 times `density` (kg/m³). All three must be positive and finite.
     ///
-    /// A dam break in a box 4 m wide, with 120 m/s and 1000 kg/m³, gets k = j = d = 0.
+    /// A dam break in a box of 4 m, with 120 m/s and 1000 kg/m³, gets k = j = d = 0.
     #[must_use]
     pub fn with_headroom(extent: f64, speed: f64, density: f64) -> Self {
         Self {
-            length_exponent: exponent_at_least(8.0 * extent) - 5,
+            length_exponent: exponent_at_least(4.0 * extent) - 5,
             speed_exponent: exponent_at_least(16.0 * speed) - 11,
             density_exponent: exponent_at_least(2.0 * density) - 11,
         }
