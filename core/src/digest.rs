@@ -59,28 +59,77 @@ pub fn hash(bytes: &[u8]) -> [u8; 16] {
 /// Most words in one particle's record: kind, id, position, velocity, density in 3D.
 const MAX_WORDS: usize = 9;
 
-/// Collects little-endian words.
-struct Record {
-    bytes: [u8; 8 * MAX_WORDS],
-    used: usize,
+/// Fluid or wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// 0.
+    Fluid,
+    /// 1.
+    Wall,
 }
 
-impl Record {
-    fn new(kind: u64, id: u64) -> Self {
-        let mut record = Self {
-            bytes: [0; 8 * MAX_WORDS],
-            used: 0,
+/// What the digest says of the whole state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Header<'a> {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// False for a floating-point state.
+    pub fixed_point: bool,
+    /// Units.
+    pub scale: Scale,
+    /// Number of fluid particles.
+    pub fluid: u64,
+    /// Number of wall particles.
+    pub walls: u64,
+    /// Names of the fields, in order; three names of at most 32 bytes.
+    pub fields: [&'a str; 3],
+}
+
+/// The order-free sum of the particles' hashes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ParticleSum(u128);
+
+impl ParticleSum {
+    /// Adds a particle with these words (at most 7) after kind and id.
+    pub fn add(&mut self, kind: Kind, id: u64, words: impl IntoIterator<Item = i64>) {
+        let mut bytes = [0u8; 8 * MAX_WORDS];
+        let mut used = 0;
+        let head = [i64::from(kind == Kind::Wall), id as i64];
+        for word in head.into_iter().chain(words) {
+            bytes[used..used + 8].copy_from_slice(&word.to_le_bytes());
+            used += 8;
+        }
+        self.0 = self
+            .0
+            .wrapping_add(u128::from_le_bytes(hash(&bytes[..used])));
+    }
+
+    /// The digest of header and sum.
+    #[must_use]
+    pub fn finish(self, header: &Header<'_>) -> Digest {
+        // 20 + 56 + 3 * (8 + 32) + 16 bytes at most.
+        let mut bytes = heapless::Vec::<u8, 256>::new();
+        let mut push = |more: &[u8]| {
+            let _ = bytes.extend_from_slice(more);
         };
-        record.push(kind as i64);
-        record.push(id as i64);
-        record
-    }
-    fn push(&mut self, word: i64) {
-        self.bytes[self.used..self.used + 8].copy_from_slice(&word.to_le_bytes());
-        self.used += 8;
-    }
-    fn hash(&self) -> u128 {
-        u128::from_le_bytes(hash(&self.bytes[..self.used]))
+        push(b"loschmidt digest 1.0");
+        for word in [
+            header.dimension as i64,
+            i64::from(!header.fixed_point),
+            i64::from(header.scale.length_exponent),
+            i64::from(header.scale.speed_exponent),
+            i64::from(header.scale.density_exponent),
+            header.fluid as i64,
+            header.walls as i64,
+        ] {
+            push(&word.to_le_bytes());
+        }
+        for name in header.fields {
+            push(&(name.len() as u64).to_le_bytes());
+            push(name.as_bytes());
+        }
+        push(&self.0.to_le_bytes());
+        Digest(hash(&bytes))
     }
 }
 
@@ -88,48 +137,27 @@ impl Record {
 #[must_use]
 pub fn digest<A: Arithmetic, const D: usize>(system: &System<'_, A, D>, scale: &Scale) -> Digest {
     let state = &system.state;
-    let fields = state.fields();
-    let mut sum = 0u128;
-    for (place, id) in state.id.iter().enumerate() {
-        let mut record = Record::new(0, *id);
-        for (f, field) in fields.iter().enumerate() {
-            for c in 0..field.components {
-                record.push(state.word(f, c, place));
-            }
-        }
-        sum = sum.wrapping_add(record.hash());
-    }
     let walls = &system.walls;
+    let fields = state.fields();
+    let mut sum = ParticleSum::default();
+    for (place, id) in state.id.iter().enumerate() {
+        let words = fields
+            .iter()
+            .enumerate()
+            .flat_map(|(f, field)| (0..field.components).map(move |c| state.word(f, c, place)));
+        sum.add(Kind::Fluid, *id, words);
+    }
     for (w, (x, density)) in walls.position.iter().zip(&*walls.density).enumerate() {
-        let mut record = Record::new(1, (state.len() + w) as u64);
-        for x in x {
-            record.push(x.to_word());
-        }
-        record.push(density.to_word());
-        sum = sum.wrapping_add(record.hash());
+        let words = x.iter().map(|x| x.to_word());
+        let id = (state.len() + w) as u64;
+        sum.add(Kind::Wall, id, words.chain([density.to_word()]));
     }
-    // Long enough for the fixed part and three short names.
-    let mut header = heapless::Vec::<u8, 256>::new();
-    let mut push = |bytes: &[u8]| {
-        // The longest header has 20 + 56 + 3 * 24 + 16 bytes.
-        let _ = header.extend_from_slice(bytes);
-    };
-    push(b"loschmidt digest 1.0");
-    for word in [
-        D as i64,
-        i64::from(!A::EXACT),
-        i64::from(scale.length_exponent),
-        i64::from(scale.speed_exponent),
-        i64::from(scale.density_exponent),
-        state.len() as i64,
-        walls.position.len() as i64,
-    ] {
-        push(&word.to_le_bytes());
-    }
-    for field in fields {
-        push(&(field.name.len() as u64).to_le_bytes());
-        push(field.name.as_bytes());
-    }
-    push(&sum.to_le_bytes());
-    Digest(hash(&header))
+    sum.finish(&Header {
+        dimension: D,
+        fixed_point: A::EXACT,
+        scale: *scale,
+        fluid: state.len() as u64,
+        walls: walls.position.len() as u64,
+        fields: fields.map(|field| field.name),
+    })
 }
