@@ -3,6 +3,7 @@
 use crate::executor::{AnyExecutor, ExecutorKind, Rayon};
 use crate::frame::Frame;
 use crate::saved::{ArithmeticKind, SavedState};
+use crate::scene::InitialState;
 use crate::storage::Storage;
 use loschmidt_core::model::StateEquation;
 use loschmidt_core::number::{Quantity, Real};
@@ -38,6 +39,17 @@ impl Default for Options {
     }
 }
 
+impl Options {
+    /// Threads that the executor uses: one if it is serial.
+    #[must_use]
+    pub fn threads_at_work(&self) -> usize {
+        match self.executor {
+            ExecutorKind::Serial => 1,
+            ExecutorKind::Rayon => self.threads.get(),
+        }
+    }
+}
+
 /// Which scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModelKind {
@@ -68,17 +80,6 @@ pub enum BuildError {
     /// A saved state of another scene.
     #[error("the saved state does not belong to this scene: {0}")]
     Foreign(&'static str),
-}
-
-/// Initial particles in SI units; in 2D the last component is ignored.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Particles {
-    /// Positions of the fluid, m.
-    pub fluid: Vec<[f64; 3]>,
-    /// Velocities of the fluid, m/s.
-    pub velocity: Vec<[f64; 3]>,
-    /// Positions of the walls, m.
-    pub wall: Vec<[f64; 3]>,
 }
 
 /// A run in progress.
@@ -130,7 +131,7 @@ struct Engine<A: Arithmetic, M, const D: usize> {
 pub fn build<const D: usize>(
     parameters: Parameters<D>,
     model: ModelKind,
-    particles: &Particles,
+    particles: &InitialState,
     options: &Options,
 ) -> Result<Box<dyn Simulation>, BuildError> {
     type F = Fixed<f64>;
@@ -155,7 +156,7 @@ pub fn build<const D: usize>(
 impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
     fn new(
         parameters: Parameters<D>,
-        particles: &Particles,
+        particles: &InitialState,
         options: &Options,
     ) -> Result<Self, BuildError> {
         let scale = parameters.scale;
@@ -175,7 +176,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
                 to_quanta(first(particles.fluid[i]), scale.length_quantum())
                     .ok_or(BuildError::Range { particle: id })?;
             system.state.velocity[place] =
-                to_quanta(first(particles.velocity[i]), scale.speed_quantum()).ok_or(range)?;
+                to_quanta(first(particles.fluid_velocity[i]), scale.speed_quantum()).ok_or(range)?;
         }
         for (w, x) in particles.wall.iter().enumerate() {
             let particle = (n + w) as u64;
