@@ -1,1 +1,3 @@
 //! Std-side runner of Loschmidt.
+
+pub mod scene;
