@@ -1,1 +1,4 @@
 //! Std-side runner of Loschmidt.
+
+pub mod frame;
+pub mod output;

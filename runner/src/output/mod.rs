@@ -1,0 +1,45 @@
+//! Particle frames as files: CSV to compute with, VTK to look at.
+//!
+//! In the directory of a run:
+//!
+//! | file                          | written by              | holds                            |
+//! |-------------------------------|-------------------------|----------------------------------|
+//! | `particles.pvd`               | [`pvd::Collection`]     | when each frame is, for ParaView |
+//! | `frames/particles-000000.vtp` | [`vtp::VtpWriter`]      | frame 0                          |
+//! | `frames/particles-000000.csv` | [`particles_csv::CsvWriter`] | frame 0, the same numbers   |
+//!
+//! Both files of a frame hold the same particles in the same order, first the fluid in the order
+//! of its ids and then the walls, and the same 64-bit floats to the last bit. All writers take any
+//! [`std::io::Write`], check the frame before the first byte, and keep their buffers for the next
+//! frame; they flush nothing that they do not own. They hand over pieces of about 64 KiB, so a
+//! `File` needs no `BufWriter` around it.
+//!
+//! A wall particle stands still, and has no density or pressure of its own in a frame: its
+//! velocity is written as 0, the other two as NaN, which plotting programs leave out of their
+//! ranges. Its id is that of [`crate::frame::Frame::wall_ids`].
+
+pub mod particles_csv;
+pub mod pvd;
+pub mod vtp;
+
+/// Path of the collection, relative to the directory of the run.
+pub const COLLECTION: &str = "particles.pvd";
+
+/// Size in bytes of the pieces in which files are written.
+const PIECE: usize = 64 * 1024;
+
+/// What a particle is.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[repr(u8)]
+pub enum Kind {
+    /// It moves: 0 in VTK, `fluid` in CSV.
+    Fluid = 0,
+    /// It stands still: 1 in VTK, `wall` in CSV.
+    Wall = 1,
+}
+
+/// Path of one file of frame `index`, relative to the directory of the run, with `/` as the
+/// separator (as in a [`pvd::Collection`]): `frames/particles-000000.csv`.
+pub fn frame_path(index: u64, extension: &str) -> String {
+    format!("frames/particles-{index:06}.{extension}")
+}
