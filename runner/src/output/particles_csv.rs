@@ -10,9 +10,9 @@
 //!
 //! Then one line per particle. `id` is a decimal integer, `kind` is `fluid` or `wall`, everything
 //! else a float in the fewest decimal digits that a correctly rounding reader turns back into the
-//! very same bits (R. Giulietti, *The Schubfach way to render doubles*, 2020): `0.1`, `-0.0`, `1e-300`, `1e+22`,
-//! `NaN`, `inf`. No field is ever quoted or empty, and the decimal separator is a point whatever
-//! the locale.
+//! very same bits (R. Giulietti, *The Schubfach way to render doubles*, 2020): `0.1`, `-0.0`,
+//! `1e-300`, `1e+22`, `NaN`, `inf`. No field is ever quoted or empty, and the decimal separator is
+//! a point whatever the locale.
 
 use std::io::{self, Write};
 
