@@ -12,8 +12,8 @@ use super::schema::{self, Default, Kind, Section};
 use super::source::is_name_character;
 use super::spec::{Entry, Node, SceneSpec, Span, Table, Value};
 use super::types::{
-    CentralGravity, Dimension, Fluid, Gravity, Output, Region, RegionKind, Scene, StepRule, WallModel,
-    WallPotential, whole_steps,
+    CentralGravity, Dimension, Fluid, Gravity, Output, Region, RegionKind, Scene, StepRule,
+    WallModel, WallPotential, whole_steps,
 };
 use super::words::Word;
 
@@ -276,14 +276,12 @@ impl<'a> Builder<'a> {
 
     fn output(&mut self, top: Here<'a>) -> Output {
         let table = EMPTY_TABLE;
-        let here = self
-            .inner(top, "output", Section::Output)
-            .unwrap_or(Here {
-                table,
-                span: None,
-                section: Section::Output,
-                name: "output",
-            });
+        let here = self.inner(top, "output", Section::Output).unwrap_or(Here {
+            table,
+            span: None,
+            section: Section::Output,
+            name: "output",
+        });
         // Whole numbers within the schema's ranges, or the NaN of a refused one.
         let mut count = |name| self.number(here, name) as u64;
         Output {

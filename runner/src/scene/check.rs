@@ -177,7 +177,10 @@ impl Checker<'_> {
             Kind::Table(inner) => (
                 "a table".to_owned(),
                 match (&node.value, inner) {
-                    (Value::List(_), Section::Fluid | Section::Gravity | Section::Wall | Section::Output) => {
+                    (
+                        Value::List(_),
+                        Section::Fluid | Section::Gravity | Section::Wall | Section::Output,
+                    ) => {
                         vec![format!("write {} in single brackets", inner.title())]
                     }
                     _ => {
