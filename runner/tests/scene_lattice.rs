@@ -49,15 +49,27 @@ fn shapes_that_share_a_face_share_no_particle_and_leave_no_gap() {
             "{ union = [{ annulus = { centre = [0.5, 0.5], inner = 0.3, outer = 0.4 } }, { difference = [{ rectangle = { min = [0, 0], max = [1, 1] } }, { circle = { centre = [0.5, 0.5], radius = 0.4 } }] }] }",
         ),
     ];
+    let frame = "{ rectangle = { min = [0, 0], max = [1, 1] } }";
     for (a, b) in halves {
-        // Intersected with the whole, both halves lie on the lattice of the whole.
-        let both = [a, b].map(|shape| {
-            let frame = "{ rectangle = { min = [0, 0], max = [1, 1] } }";
+        // What is left of the whole without a shape lies on the lattice of the whole.
+        let without = |shape: &str| {
             let rest = format!("{{ difference = [{frame}, {shape}] }}");
-            (fluid(spacing, &rest).fluid.len(), shape)
-        });
-        let inside: usize = both.iter().map(|(rest, _)| whole.fluid.len() - rest).sum();
-        assert_eq!(inside, whole.fluid.len(), "{a} and {b}");
+            fluid(spacing, &rest).fluid.len()
+        };
+        let sum = 2 * whole.fluid.len() - without(a) - without(b);
+        assert_eq!(sum, whole.fluid.len(), "{a} and {b} overlap or leave a gap");
+
+        let gap = format!("shape.difference = [{frame}, {a}, {b}]");
+        let scene = with_regions(
+            spacing,
+            2,
+            &format!("[[region]]\nkind = \"fluid\"\n{gap}\n"),
+        );
+        let outcome = scene.initial_state();
+        assert!(
+            matches!(outcome, Err(SceneError::NoFluid { .. })),
+            "{a} and {b} leave a gap"
+        );
     }
 }
 

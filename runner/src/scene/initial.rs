@@ -78,8 +78,10 @@ impl Scene {
             particle_spacing: self.particle_spacing,
         };
         let first = self.first_lattice().ok_or_else(no_fluid)?;
-        let (fluid, wall) = self.estimated_particles();
-        self.refuse_above(fluid.saturating_add(wall), MOST_PARTICLES)?;
+        if self.nodes_of_bounds(first) > MOST_PARTICLES as f64 {
+            let (fluid, wall) = self.estimated_particles();
+            self.refuse_above(fluid.saturating_add(wall), MOST_PARTICLES)?;
+        }
 
         let mut state = InitialState::default();
         let mut placed = Vec::new();
@@ -121,6 +123,14 @@ impl Scene {
             .iter()
             .enumerate()
             .filter(move |(_, region)| walls || region.kind == RegionKind::Fluid)
+    }
+
+    /// The number of nodes in the bounds of all regions: no scene has more particles.
+    fn nodes_of_bounds(&self, lattice: Lattice) -> f64 {
+        self.filled_regions()
+            .filter_map(|(_, region)| region.shape.bounds(lattice.spacing))
+            .map(|bounds| lattice.nodes_within(bounds))
+            .sum()
     }
 
     fn own_lattice(&self, region: &Region) -> Option<Lattice> {
