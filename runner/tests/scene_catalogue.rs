@@ -120,9 +120,9 @@ fn the_drops_are_turned_after_5_000_steps_and_mirror_each_other() {
 }
 
 #[test]
-fn the_rotating_drop_turns_rigidly_and_is_turned_after_4_000_steps() {
+fn the_rotating_drop_turns_rigidly_and_is_turned_after_3_000_steps() {
     let scene = scene("rotating-drop", &[]);
-    assert_eq!((scene.steps_out(), scene.steps_back()), (4_000, 4_000));
+    assert_eq!((scene.steps_out(), scene.steps_back()), (3_000, 3_000));
     let state = scene.initial_state().expect("a state");
     assert!((1_900..2_100).contains(&state.fluid.len()));
     for (x, v) in state.fluid.iter().zip(&state.fluid_velocity) {

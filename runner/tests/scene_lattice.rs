@@ -172,6 +172,38 @@ fn a_scene_too_large_for_its_numbers_is_refused_at_once() {
 }
 
 #[test]
+fn a_wall_at_the_end_of_the_numbers_is_estimated_and_refused() {
+    for x in ["1e30", "-1e300"] {
+        let scene = with_regions(
+            0.1,
+            2,
+            &format!(
+                "[[region]]\nkind = \"fluid\"\nshape.circle = {{ centre = [0, 0], radius = 1 }}\n[[region]]\nkind = \"wall\"\nshape.layer = {{ around = {{ circle = {{ centre = [{x}, 0], radius = 1 }} }}, depth = 2.5 }}\n"
+            ),
+        );
+        assert_eq!(scene.estimated_particles().0, 316);
+        let outcome = scene.initial_state();
+        assert!(matches!(outcome, Err(SceneError::TooFar { region: 1, .. })));
+    }
+}
+
+#[test]
+fn a_shape_scattered_over_too_many_nodes_is_refused_at_once() {
+    let drop = |x: &str| format!("{{ circle = {{ centre = [{x}, {x}], radius = 1 }} }}");
+    let union = format!("[{}, {}]", drop("-50000"), drop("50000"));
+    let scene = with_regions(
+        0.1,
+        2,
+        &format!("[[region]]\nkind = \"fluid\"\nshape.union = {union}\n"),
+    );
+    let outcome = scene.initial_state();
+    assert!(matches!(
+        outcome,
+        Err(SceneError::TooSparse { region: 0, .. })
+    ));
+}
+
+#[test]
 fn a_box_in_space_is_walled_on_every_side() {
     let state = with_regions(
         0.1,

@@ -73,7 +73,9 @@ impl Lattice {
     fn extent(&self, bounds: Bounds) -> (Index, Index) {
         let pitch = self.pitch();
         let axes = self.dimension().axes();
-        let index = |k: usize, x: f64| (x - self.origin[k]) / pitch[k];
+        // Far beyond any scene that is accepted, and far below the end of i64.
+        const FARTHEST: f64 = (1_u64 << 52) as f64;
+        let index = |k: usize, x: f64| ((x - self.origin[k]) / pitch[k]).clamp(-FARTHEST, FARTHEST);
         let low = |k| {
             if k < axes {
                 index(k, bounds.0[k]).floor() as i64 - 1
