@@ -46,6 +46,7 @@ mod shape;
 mod source;
 mod spec;
 mod types;
+mod values;
 mod words;
 
 pub use catalogue::{CatalogueEntry, catalogue};
