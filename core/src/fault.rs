@@ -39,7 +39,9 @@ pub struct Fault {
 }
 
 impl Fault {
-    pub(crate) fn new(kind: FaultKind, particle: u64) -> Self {
+    /// A fault of this particle, in a step that the model fills in.
+    #[must_use]
+    pub fn new(kind: FaultKind, particle: u64) -> Self {
         Self {
             kind,
             particle,
