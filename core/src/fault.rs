@@ -48,7 +48,9 @@ impl Fault {
             step: 0,
         }
     }
-    pub(crate) fn at_step(self, step: u64) -> Self {
+    /// The same fault in this step.
+    #[must_use]
+    pub fn at_step(self, step: u64) -> Self {
         Self { step, ..self }
     }
     /// Of two faults in one pass, the one that is reported: independent of who finds it first.
