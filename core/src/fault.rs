@@ -34,7 +34,8 @@ pub struct Fault {
     /// Id of the particle; the smallest one where several fail in the same pass. Wall particles
     /// count on from the last fluid particle.
     pub particle: u64,
-    /// Number of the step, counting from 1 over both legs of a run; 0 while it is set up.
+    /// Number of the step, counting from 1 over both legs of a run; 0 while it is set up. Found by
+    /// a measurement, it is the number of the last step.
     pub step: u64,
 }
 
