@@ -50,3 +50,7 @@ pub const ENTROPY_INTEGRAL: f64 = 1e-6;
 /// Fixed against floating point after one step from rest, in quanta: half a quantum for each of up
 /// to 60 terms of velocity and density, and what the density's error does to the pressure.
 pub const ONE_STEP_QUANTA: f64 = 64.0;
+
+/// How far the ratio of two differences between the schemes, at steps of which one is half the
+/// other, lies from 2: the terms of second order.
+pub const FIRST_ORDER_RATIO: f64 = 0.2;

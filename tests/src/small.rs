@@ -74,7 +74,7 @@ pub fn central<const D: usize>() -> Gravity<D> {
 pub fn conservative() -> Wall {
     Wall::Conservative {
         energy: 98.1,
-        radius: 1.5 * SPACING,
+        radius: 1.05 * SPACING,
         softening: 0.25 * SPACING,
     }
 }
@@ -125,19 +125,12 @@ impl<const D: usize> Recipe<D> {
 
     /// The same block in a box of `inside` lattice points with walls of `layers` on all sides.
     #[must_use]
-    pub fn boxed(
-        parameters: Parameters<D>,
-        size: [i64; D],
-        inside: [i64; D],
-        layers: i64,
-    ) -> Self {
+    pub fn boxed(parameters: Parameters<D>, size: [i64; D], inside: [i64; D], layers: i64) -> Self {
         let mut recipe = Self::block(parameters, size);
         for index in lattice(inside.map(|n| n + 2 * layers)) {
             let index: [i64; D] = index.map(|i| i - layers);
             if (0..D).any(|d| index[d] < 0 || index[d] >= inside[d]) {
-                recipe
-                    .walls
-                    .push(index.map(|i| (i as f64 + 0.5) * SPACING));
+                recipe.walls.push(index.map(|i| (i as f64 + 0.5) * SPACING));
             }
         }
         recipe
@@ -201,7 +194,10 @@ impl<const D: usize> Recipe<D> {
 
 /// A dam of 4 x 6 particles in a closed box with gravity, in two dimensions.
 #[must_use]
-pub fn dam_2d(wall: Wall, integrator: &'static loschmidt_core::integrator::Integrator) -> Recipe<2> {
+pub fn dam_2d(
+    wall: Wall,
+    integrator: &'static loschmidt_core::integrator::Integrator,
+) -> Recipe<2> {
     let parameters = Parameters {
         gravity: downwards(),
         wall,
@@ -213,7 +209,10 @@ pub fn dam_2d(wall: Wall, integrator: &'static loschmidt_core::integrator::Integ
 
 /// A dam of 2 x 2 x 3 particles in a closed box with gravity, in three dimensions.
 #[must_use]
-pub fn dam_3d(wall: Wall, integrator: &'static loschmidt_core::integrator::Integrator) -> Recipe<3> {
+pub fn dam_3d(
+    wall: Wall,
+    integrator: &'static loschmidt_core::integrator::Integrator,
+) -> Recipe<3> {
     let parameters = Parameters {
         gravity: downwards(),
         wall,

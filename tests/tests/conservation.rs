@@ -31,7 +31,11 @@ fn collision<const D: usize>(parameters: Parameters<D>, size: [i64; D]) -> Recip
 fn momentum_is_constant<const D: usize>(size: [i64; D]) {
     for integrator in INTEGRATORS {
         for state_equation in [StateEquation::Tait, StateEquation::Linear] {
-            let parameters = Parameters { integrator, state_equation, ..water::<D>() };
+            let parameters = Parameters {
+                integrator,
+                state_equation,
+                ..water::<D>()
+            };
             let mut system = collision(parameters, size).symplectic();
             let first = measure(&mut system);
             assert!(first.momentum_quanta[..D].iter().all(|&p| p != 0));
@@ -72,18 +76,26 @@ fn the_standard_scheme_keeps_momentum_too() {
 }
 
 /// Σ |x||v| in quanta: what the angular momentum is compared with.
-fn lever<const D: usize>(system: &mut loschmidt_tests::small::Small<Symplectic<Fixed, D>, D>) -> f64 {
+fn lever<const D: usize>(
+    system: &mut loschmidt_tests::small::Small<Symplectic<Fixed, D>, D>,
+) -> f64 {
     let (_, system) = system.parts();
     let norm = |v: [f64; D]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
     let state = &system.state;
     (0..state.len())
-        .map(|i| norm(state.position[i].map(|x| x.quanta())) * norm(state.velocity[i].map(|v| v.quanta())))
+        .map(|i| {
+            norm(state.position[i].map(|x| x.quanta()))
+                * norm(state.velocity[i].map(|v| v.quanta()))
+        })
         .sum()
 }
 
 fn angular_momentum_is_kept<const D: usize>(size: [i64; D]) {
     for integrator in INTEGRATORS {
-        let parameters = Parameters { integrator, ..water::<D>() };
+        let parameters = Parameters {
+            integrator,
+            ..water::<D>()
+        };
         let mut system = collision(parameters, size).symplectic();
         let unit = lever(&mut system);
         let first = measure(&mut system).angular_momentum_quanta;
@@ -116,7 +128,10 @@ fn reversal_negates_angular_momentum_and_keeps_every_energy() {
     let there = measure(&mut system);
     system.reverse();
     let back = measure(&mut system);
-    assert_eq!(back.angular_momentum_quanta, there.angular_momentum_quanta.map(|l| -l));
+    assert_eq!(
+        back.angular_momentum_quanta,
+        there.angular_momentum_quanta.map(|l| -l)
+    );
     assert_eq!(back.energies, there.energies);
     assert_eq!(back.histogram, there.histogram);
     assert_eq!(back.front, there.front);

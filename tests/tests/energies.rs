@@ -94,9 +94,17 @@ const EQUATIONS: [StateEquation; 2] = [StateEquation::Tait, StateEquation::Linea
 fn pressure_is_minus_the_gradient_of_internal_energy() {
     for state_equation in EQUATIONS {
         for density_correction in [DensityCorrection::Constant, DensityCorrection::None] {
-            let plane = Parameters { state_equation, density_correction, ..water::<2>() };
+            let plane = Parameters {
+                state_equation,
+                density_correction,
+                ..water::<2>()
+            };
             check_all(&Recipe::block(plane, [4, 3]), |e| e.internal);
-            let space = Parameters { state_equation, density_correction, ..water::<3>() };
+            let space = Parameters {
+                state_equation,
+                density_correction,
+                ..water::<3>()
+            };
             check_all(&Recipe::block(space, [2, 3, 2]), |e| e.internal);
         }
     }
@@ -104,23 +112,38 @@ fn pressure_is_minus_the_gradient_of_internal_energy() {
 
 #[test]
 fn weight_is_minus_the_gradient_of_gravitational_energy() {
-    let plane = Parameters { gravity: downwards(), ..water::<2>() };
+    let plane = Parameters {
+        gravity: downwards(),
+        ..water::<2>()
+    };
     check_all(&sparse(plane), |e| e.gravitational);
-    let space = Parameters { gravity: downwards(), ..water::<3>() };
+    let space = Parameters {
+        gravity: downwards(),
+        ..water::<3>()
+    };
     check_all(&sparse(space), |e| e.gravitational);
 }
 
 #[test]
 fn central_attraction_is_minus_the_gradient_of_its_energy() {
-    let plane = Parameters { gravity: central(), ..water::<2>() };
+    let plane = Parameters {
+        gravity: central(),
+        ..water::<2>()
+    };
     check_all(&sparse(plane), |e| e.gravitational);
-    let space = Parameters { gravity: central(), ..water::<3>() };
+    let space = Parameters {
+        gravity: central(),
+        ..water::<3>()
+    };
     check_all(&sparse(space), |e| e.gravitational);
 }
 
 /// Walls half a spacing beside each particle.
 fn beside_walls<const D: usize>(wall: Wall) -> Recipe<D> {
-    let mut recipe = sparse(Parameters { wall, ..water::<D>() });
+    let mut recipe = sparse(Parameters {
+        wall,
+        ..water::<D>()
+    });
     for (x, _) in &recipe.fluid {
         for d in 0..D {
             let mut x = *x;
@@ -147,14 +170,18 @@ fn dummies_push_by_the_gradient_of_all_internal_energy_with_their_own() {
                 wall: Wall::Dummy,
                 ..water::<2>()
             };
-            check_all(&Recipe::boxed(plane, [3, 3], [4, 4], 2), |e| e.internal + e.wall);
+            check_all(&Recipe::boxed(plane, [3, 3], [4, 4], 2), |e| {
+                e.internal + e.wall
+            });
             let space = Parameters {
                 state_equation,
                 density_correction,
                 wall: Wall::Dummy,
                 ..water::<3>()
             };
-            check_all(&Recipe::boxed(space, [2, 2, 2], [3, 2, 2], 1), |e| e.internal + e.wall);
+            check_all(&Recipe::boxed(space, [2, 2, 2], [3, 2, 2], 1), |e| {
+                e.internal + e.wall
+            });
         }
     }
 }
@@ -162,7 +189,10 @@ fn dummies_push_by_the_gradient_of_all_internal_energy_with_their_own() {
 #[test]
 #[should_panic(expected = "seed 0")]
 fn without_the_dummies_own_energy_the_gradient_is_another() {
-    let plane = Parameters { wall: Wall::Dummy, ..water::<2>() };
+    let plane = Parameters {
+        wall: Wall::Dummy,
+        ..water::<2>()
+    };
     check_all(&Recipe::boxed(plane, [3, 3], [4, 4], 2), |e| e.internal);
 }
 
@@ -171,7 +201,11 @@ fn all_forces_together_are_minus_the_gradient_of_the_potential_energy() {
     for wall in [conservative(), Wall::Dummy] {
         let mut gravity = downwards();
         gravity.central = central::<2>().central;
-        let parameters = Parameters { wall, gravity, ..water::<2>() };
+        let parameters = Parameters {
+            wall,
+            gravity,
+            ..water::<2>()
+        };
         let recipe = Recipe::boxed(parameters, [3, 3], [4, 4], 2);
         check_all(&recipe, |e| e.total() - e.kinetic);
     }
@@ -180,11 +214,17 @@ fn all_forces_together_are_minus_the_gradient_of_the_potential_energy() {
 #[test]
 fn internal_energy_has_its_zero_at_the_initial_state() {
     for wall in [Wall::None, Wall::Dummy] {
-        let parameters = Parameters { wall, ..water::<2>() };
+        let parameters = Parameters {
+            wall,
+            ..water::<2>()
+        };
         let mut system = Recipe::boxed(parameters, [3, 4], [5, 5], 2).symplectic();
         let energies = measure(&mut system).energies;
         // ρ = ρ0 to the last bit, and ρ/ρ0 within one ulp of one: (x - 1)² is below 2^-100.
-        assert_eq!((energies.internal, energies.wall, energies.kinetic), (0.0, 0.0, 0.0));
+        assert_eq!(
+            (energies.internal, energies.wall, energies.kinetic),
+            (0.0, 0.0, 0.0)
+        );
     }
 }
 
@@ -197,7 +237,10 @@ fn the_derivative_of_internal_energy_is_pressure_over_density_squared() {
             let numerical =
                 (equation.internal_energy(x + d) - equation.internal_energy(x - d)) / (2.0 * d);
             let error = numerical - equation.pressure_over_density_squared(x);
-            assert!(error.abs() < permitted::STATE_EQUATION, "{equation:?} {x} {error:e}");
+            assert!(
+                error.abs() < permitted::STATE_EQUATION,
+                "{equation:?} {x} {error:e}"
+            );
         }
     }
 }
@@ -222,7 +265,9 @@ fn state_equations_are_those_of_the_paper_and_share_the_sound_speed() {
         let tait = (x.powi(7) - 1.0) / 7.0;
         assert!((StateEquation::Tait.pressure(x) - tait).abs() < permitted::STATE_EQUATION);
         let energy = (x.powi(6) + 6.0 / x - 7.0) / 42.0;
-        assert!((StateEquation::Tait.internal_energy(x) - energy).abs() < permitted::STATE_EQUATION);
+        assert!(
+            (StateEquation::Tait.internal_energy(x) - energy).abs() < permitted::STATE_EQUATION
+        );
         assert!((StateEquation::Linear.pressure(x) - (x - 1.0)).abs() < permitted::STATE_EQUATION);
     }
     for equation in EQUATIONS {
@@ -237,8 +282,14 @@ fn energies_do_not_depend_on_the_order_of_storage() {
     let mut gravity = downwards();
     gravity.central = central::<2>().central;
     for wall in [conservative(), Wall::Dummy] {
-        let parameters = Parameters { wall, gravity, ..water::<2>() };
-        let mut system = Recipe::boxed(parameters, [4, 4], [6, 6], 2).stirred(1, 2.0).symplectic();
+        let parameters = Parameters {
+            wall,
+            gravity,
+            ..water::<2>()
+        };
+        let mut system = Recipe::boxed(parameters, [4, 4], [6, 6], 2)
+            .stirred(1, 2.0)
+            .symplectic();
         system.advance(5, &Serial).unwrap();
         let first = measure(&mut system);
         for seed in 0..5 {

@@ -1,8 +1,8 @@
 //! The speed histogram, its entropy and its temperature.
 
 use loschmidt_core::diagnostics::{BINS, SpeedHistogram, equilibrium_entropy};
-use loschmidt_core::{Diagnostics, Fixed, Forces, Model, Parameters, Serial, Symplectic};
 use loschmidt_core::owned::Owned;
+use loschmidt_core::{Diagnostics, Fixed, Forces, Model, Parameters, Serial, Symplectic};
 use loschmidt_tests::generator::Generator;
 use loschmidt_tests::permitted;
 use loschmidt_tests::small::{SPACING, lattice, water};
@@ -14,7 +14,11 @@ const SOUND_SPEED: f64 = 120.0;
 /// The histogram of fluid particles with these velocities.
 fn histogram<const D: usize>(velocities: &[[f64; D]]) -> SpeedHistogram {
     type Many<const D: usize> = Owned<Fixed, Symplectic<Fixed, D>, D, PARTICLES, 0, 2049>;
-    let parameters = Parameters { sound_speed: SOUND_SPEED, max_buckets: 2048, ..water::<D>() };
+    let parameters = Parameters {
+        sound_speed: SOUND_SPEED,
+        max_buckets: 2048,
+        ..water::<D>()
+    };
     let forces = Forces::new(parameters).unwrap();
     let mut system: Box<Many<D>> = Box::new(Owned::new(Symplectic::new(forces)).unwrap());
     for (index, v) in lattice([13, 13, 13]).zip(velocities) {
@@ -27,7 +31,9 @@ fn histogram<const D: usize>(velocities: &[[f64; D]]) -> SpeedHistogram {
     }
     system.initialise(&Serial).unwrap();
     let (model, mut system) = system.parts();
-    Diagnostics::measure(model, &mut system, &Serial).unwrap().histogram
+    Diagnostics::measure(model, &mut system, &Serial)
+        .unwrap()
+        .histogram
 }
 
 /// Fraction of particles slower than v thermal speeds.
@@ -79,11 +85,17 @@ fn equilibrium_is_recognised<const D: usize>() {
             ("of energy", h.equilibrium_of_energy().unwrap()),
             ("of fit", h.equilibrium_of_fit().unwrap()),
         ] {
-            assert!((s - exact).abs() < permitted::ENTROPY, "{D} {temperature} {what} {s} {exact}");
+            assert!(
+                (s - exact).abs() < permitted::ENTROPY,
+                "{D} {temperature} {what} {s} {exact}"
+            );
         }
         for t in [h.temperature_of_energy, h.fitted_temperature().unwrap()] {
             let error = t / temperature - 1.0;
-            assert!(error.abs() < permitted::TEMPERATURE, "{D} {temperature} {error}");
+            assert!(
+                error.abs() < permitted::TEMPERATURE,
+                "{D} {temperature} {error}"
+            );
         }
     }
 }
@@ -107,7 +119,10 @@ fn the_fit_sees_the_bulk_and_the_energy_a_few_fast_ones() {
     let h = histogram(&velocities);
     assert_eq!(h.beyond, 20);
     let error = h.fitted_temperature().unwrap() / 4.0 - 1.0;
-    assert!(error.abs() < permitted::TEMPERATURE_WITH_OUTLIERS, "{error}");
+    assert!(
+        error.abs() < permitted::TEMPERATURE_WITH_OUTLIERS,
+        "{error}"
+    );
     assert!(h.temperature_of_energy > 20.0);
 }
 
@@ -127,7 +142,14 @@ fn equal_speeds_have_less_entropy_than_equilibrium() {
 #[test]
 fn bins_are_a_hundred_equal_ones_up_to_a_sixth_of_the_sound_speed() {
     let width = SOUND_SPEED / 600.0;
-    let speeds = [0.0, 0.1 * width, 0.9 * width, 1.5 * width, 98.5 * width, 99.5 * width];
+    let speeds = [
+        0.0,
+        0.1 * width,
+        0.9 * width,
+        1.5 * width,
+        98.5 * width,
+        99.5 * width,
+    ];
     let h = histogram(&speeds.map(|v| [v, 0.0]));
     assert_eq!(BINS, 100);
     assert_eq!(h.bin_width, width);
@@ -191,7 +213,11 @@ fn integrals(h: &SpeedHistogram, temperature: f64) -> [f64; 2] {
     };
     let mut sums = [0.0; 2];
     for k in 0..=n {
-        let weight = if k == 0 || k == n { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
+        let weight = if k == 0 || k == n {
+            1.0
+        } else {
+            f64::from(2 + 2 * (k % 2))
+        };
         let t = term(k);
         sums = [sums[0] + weight * t[0], sums[1] + weight * t[1]];
     }
@@ -205,7 +231,11 @@ fn equilibrium_formulas_are_the_integrals_of_the_maxwellian() {
             let [s, one] = integrals(&h, temperature);
             assert!((one - 1.0).abs() < permitted::ENTROPY_INTEGRAL);
             let formula = equilibrium_entropy(h.dimension, temperature).unwrap();
-            assert!((s - formula).abs() < permitted::ENTROPY_INTEGRAL, "{} {s} {formula}", h.dimension);
+            assert!(
+                (s - formula).abs() < permitted::ENTROPY_INTEGRAL,
+                "{} {s} {formula}",
+                h.dimension
+            );
         }
     }
 }

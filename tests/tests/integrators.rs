@@ -9,10 +9,12 @@ use loschmidt_tests::permitted;
 use loschmidt_tests::small::{Recipe, central, position, velocity, water};
 
 fn sums(row: &Integrator) -> (f64, f64) {
-    row.stages.iter().fold((0.0, 0.0), |(kick, drift), stage| match stage {
-        Stage::Kick(c) => (kick + c, drift),
-        Stage::Drift(c) => (kick, drift + c),
-    })
+    row.stages
+        .iter()
+        .fold((0.0, 0.0), |(kick, drift), stage| match stage {
+            Stage::Kick(c) => (kick + c, drift),
+            Stage::Drift(c) => (kick, drift + c),
+        })
 }
 
 #[test]
@@ -28,8 +30,16 @@ fn every_table_reads_the_same_from_both_ends() {
 fn kicks_and_drifts_each_sum_to_one_step() {
     for row in INTEGRATORS {
         let (kick, drift) = sums(row);
-        assert!((kick - 1.0).abs() <= permitted::COEFFICIENT_SUM, "{} {kick}", row.name);
-        assert!((drift - 1.0).abs() <= permitted::COEFFICIENT_SUM, "{} {drift}", row.name);
+        assert!(
+            (kick - 1.0).abs() <= permitted::COEFFICIENT_SUM,
+            "{} {kick}",
+            row.name
+        );
+        assert!(
+            (drift - 1.0).abs() <= permitted::COEFFICIENT_SUM,
+            "{} {drift}",
+            row.name
+        );
     }
 }
 
@@ -50,7 +60,11 @@ fn kicks_and_drifts_alternate() {
 fn force_evaluations_are_those_between_drifts() {
     // The last kick of a step and the first of the next share an evaluation.
     for row in INTEGRATORS {
-        let drifts = row.stages.iter().filter(|s| matches!(s, Stage::Drift(_))).count();
+        let drifts = row
+            .stages
+            .iter()
+            .filter(|s| matches!(s, Stage::Drift(_)))
+            .count();
         let shared = matches!(row.stages[0], Stage::Kick(_));
         let evaluations = if shared { drifts } else { drifts - 1 };
         assert_eq!(row.evaluations as usize, evaluations, "{}", row.name);
@@ -85,7 +99,9 @@ fn coefficients_are_those_of_the_papers() {
         ]
     );
     // 1/(4 - 4^(1/3)), from 40 digits.
-    let p: f64 = "0.4144907717943757371423540628607614957117".parse().unwrap();
+    let p: f64 = "0.4144907717943757371423540628607614957117"
+        .parse()
+        .unwrap();
     assert_eq!(
         SUZUKI.stages[..6],
         [
@@ -136,9 +152,7 @@ fn reference() -> [f64; 4] {
         let k2 = rate(at(y, k1, 0.5));
         let k3 = rate(at(y, k2, 0.5));
         let k4 = rate(at(y, k3, 1.0));
-        y = std::array::from_fn(|i| {
-            y[i] + dt / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
-        });
+        y = std::array::from_fn(|i| y[i] + dt / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
     }
     y
 }

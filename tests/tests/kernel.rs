@@ -20,7 +20,9 @@ fn integral(from: f64, to: f64, f: impl Fn(f64) -> f64) -> f64 {
         k if k % 2 == 1 => 4.0,
         _ => 2.0,
     };
-    let sum: f64 = (0..=n).map(|k| weight(k) * f(from + f64::from(k) * step)).sum();
+    let sum: f64 = (0..=n)
+        .map(|k| weight(k) * f(from + f64::from(k) * step))
+        .sum();
     sum * step / 3.0
 }
 
@@ -48,7 +50,10 @@ fn derivative_over_r_is_the_derivative_of_the_value_over_r() {
             let r = f64::from(k) * 0.01 * SUPPORT;
             let numerical = (w.value(r + d) - w.value(r - d)) / (2.0 * d) / r;
             let error = (w.derivative_over_r(r) - numerical).abs() / unit;
-            assert!(error < permitted::KERNEL_DERIVATIVE, "{dimension} {r} {error}");
+            assert!(
+                error < permitted::KERNEL_DERIVATIVE,
+                "{dimension} {r} {error}"
+            );
         }
     }
 }
@@ -94,11 +99,17 @@ fn coincident_particles_exert_no_force() {
 fn a_unit_that_is_a_power_of_two_changes_no_bit() {
     let quantum = 2f64.powi(-46);
     for dimension in [2, 3] {
-        let (metres, quanta) = (kernel(dimension), WendlandC2::<f64>::new(dimension, SUPPORT, quantum));
+        let (metres, quanta) = (
+            kernel(dimension),
+            WendlandC2::<f64>::new(dimension, SUPPORT, quantum),
+        );
         for k in 0..=40 {
             let r = f64::from(k) * 0.01;
             assert_eq!(metres.value(r), quanta.value(r / quantum));
-            assert_eq!(metres.derivative_over_r(r), quanta.derivative_over_r(r / quantum));
+            assert_eq!(
+                metres.derivative_over_r(r),
+                quanta.derivative_over_r(r / quantum)
+            );
         }
     }
 }

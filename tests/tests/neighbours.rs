@@ -14,12 +14,18 @@ fn met<Q: Quantity, const D: usize>(grid: &Grid<D>, position: &[[Q; D]], x: &[Q;
     };
     cells.sort(grid, position);
     let mut times = vec![0; position.len()];
-    cells.view().around(grid, x, |run| run.iter().for_each(|&j| times[j as usize] += 1));
+    cells.view().around(grid, x, |run| {
+        run.iter().for_each(|&j| times[j as usize] += 1)
+    });
     times
 }
 
 /// Every particle within reach is met exactly once, no other more than once.
-fn check<const D: usize>(reach: i64, grid: &Grid<D>, words: &[[i64; D]]) -> Result<(), TestCaseError> {
+fn check<const D: usize>(
+    reach: i64,
+    grid: &Grid<D>,
+    words: &[[i64; D]],
+) -> Result<(), TestCaseError> {
     let fixed: Vec<[Length; D]> = words.iter().map(|x| x.map(Length::from_word)).collect();
     let float: Vec<[f64; D]> = words.iter().map(|x| x.map(|x| x as f64)).collect();
     for (i, x) in words.iter().enumerate() {

@@ -17,7 +17,9 @@ fn nearest(x: f64) -> i64 {
 fn in_range() -> impl Strategy<Value = f64> {
     prop_oneof![
         // Every exponent, uniformly over bit patterns.
-        any::<u64>().prop_map(f64::from_bits).prop_filter("in range", |x| x.abs() < LIMIT),
+        any::<u64>()
+            .prop_map(f64::from_bits)
+            .prop_filter("in range", |x| x.abs() < LIMIT),
         -LIMIT..LIMIT,
         -8.0..8.0f64,
         // Ties and their neighbours.
@@ -156,8 +158,14 @@ fn the_dam_break_of_the_paper_gets_exponents_zero() {
 fn a_power_of_two_is_its_own_headroom() {
     // 8 x 4 = 32 exactly; a hair more needs one exponent more.
     assert_eq!(Scale::with_headroom(4.0, 1.0, 1.0).length_exponent, 0);
-    assert_eq!(Scale::with_headroom(4.0f64.next_up(), 1.0, 1.0).length_exponent, 1);
-    assert_eq!(Scale::with_headroom(4.0f64.next_down(), 1.0, 1.0).length_exponent, 0);
+    assert_eq!(
+        Scale::with_headroom(4.0f64.next_up(), 1.0, 1.0).length_exponent,
+        1
+    );
+    assert_eq!(
+        Scale::with_headroom(4.0f64.next_down(), 1.0, 1.0).length_exponent,
+        0
+    );
 }
 
 #[test]

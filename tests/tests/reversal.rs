@@ -3,7 +3,9 @@
 use loschmidt_core::integrator::{INTEGRATORS, Integrator};
 use loschmidt_core::model::{Central, DensityCorrection, Gravity, StateEquation, Wall};
 use loschmidt_core::state::TimeParity;
-use loschmidt_core::{Fixed, Model, Parameters, Reversibility, Scale, Serial, Standard, Symplectic};
+use loschmidt_core::{
+    Fixed, Model, Parameters, Reversibility, Scale, Serial, Standard, Symplectic,
+};
 use loschmidt_tests::small::{
     Recipe, SPACING, central, conservative, dam_2d, dam_3d, shuffle, there_and_back, water, words,
 };
@@ -46,9 +48,17 @@ fn a_dam_returns_with_every_row_wall_and_state_equation_in_space() {
 #[test]
 fn a_drop_returns_in_the_field_of_a_fixed_mass() {
     for integrator in INTEGRATORS {
-        let plane = Parameters { gravity: central(), integrator, ..water::<2>() };
+        let plane = Parameters {
+            gravity: central(),
+            integrator,
+            ..water::<2>()
+        };
         returns(&Recipe::block(plane, [5, 5]).stirred(1, 2.0));
-        let space = Parameters { gravity: central(), integrator, ..water::<3>() };
+        let space = Parameters {
+            gravity: central(),
+            integrator,
+            ..water::<3>()
+        };
         returns(&Recipe::block(space, [3, 3, 3]).stirred(1, 2.0));
     }
 }
@@ -64,7 +74,11 @@ fn a_long_run_returns() {
 #[test]
 fn particles_that_meet_on_one_point_return() {
     // Head on, along one axis, at equal speed: after a whole number of steps they coincide.
-    let parameters = Parameters { time_step: 1.0 / 256.0, sound_speed: 1.0, ..water::<2>() };
+    let parameters = Parameters {
+        time_step: 1.0 / 256.0,
+        sound_speed: 1.0,
+        ..water::<2>()
+    };
     let mut recipe = Recipe::empty(parameters);
     recipe.fluid.push(([0.0, 0.0], [4.0, 0.0]));
     recipe.fluid.push(([1.0, 0.0], [-4.0, 0.0]));
@@ -129,7 +143,9 @@ fn the_grid_changes_no_bit_of_a_run() {
 
 #[test]
 fn reversing_twice_is_the_identity_and_once_follows_the_parity_of_the_fields() {
-    let mut system = dam_3d(Wall::Dummy, INTEGRATORS[0]).stirred(2, 1.0).symplectic();
+    let mut system = dam_3d(Wall::Dummy, INTEGRATORS[0])
+        .stirred(2, 1.0)
+        .symplectic();
     system.advance(3, &Serial).unwrap();
     let before = words(&mut system);
     let fields = system.parts().1.state.fields();
@@ -167,33 +183,53 @@ fn reversibility_is_part_of_the_type() {
 fn parameters<const D: usize>() -> impl Strategy<Value = Parameters<D>> {
     let wall = prop_oneof![Just(Wall::None), Just(Wall::Dummy), Just(conservative())];
     let equation = prop_oneof![Just(StateEquation::Tait), Just(StateEquation::Linear)];
-    let correction =
-        prop_oneof![Just(DensityCorrection::Constant), Just(DensityCorrection::None)];
-    let mass = prop::option::of((prop::array::uniform::<_, D>(-1.0..1.0f64), 0.0..5.0f64, 0.1..0.3f64));
+    let correction = prop_oneof![
+        Just(DensityCorrection::Constant),
+        Just(DensityCorrection::None)
+    ];
+    let mass = prop::option::of((
+        prop::array::uniform::<_, D>(-1.0..1.0f64),
+        0.0..5.0f64,
+        0.1..0.3f64,
+    ));
     let exponents = prop::array::uniform3(-3..6i32);
     (
         (wall, equation, correction, 0..3usize),
-        (prop::array::uniform::<_, D>(-10.0..10.0f64), mass, exponents),
+        (
+            prop::array::uniform::<_, D>(-10.0..10.0f64),
+            mass,
+            exponents,
+        ),
         (1.2..3.5f64, 0.01..0.2f64, 5.0..50.0f64),
     )
-        .prop_map(|((wall, state_equation, density_correction, row), (uniform, mass, e), (h, cfl, c))| {
-            let support_radius = h * SPACING;
-            Parameters {
-                support_radius,
-                time_step: cfl * support_radius / c,
-                sound_speed: c,
-                state_equation,
-                density_correction,
-                gravity: Gravity {
-                    uniform,
-                    central: mass.map(|(centre, strength, softening)| Central { centre, strength, softening }),
-                },
-                wall,
-                integrator: INTEGRATORS[row],
-                scale: Scale { length_exponent: e[0], speed_exponent: e[1], density_exponent: 3 + e[2] },
-                ..water()
-            }
-        })
+        .prop_map(
+            |((wall, state_equation, density_correction, row), (uniform, mass, e), (h, cfl, c))| {
+                let support_radius = h * SPACING;
+                Parameters {
+                    support_radius,
+                    time_step: cfl * support_radius / c,
+                    sound_speed: c,
+                    state_equation,
+                    density_correction,
+                    gravity: Gravity {
+                        uniform,
+                        central: mass.map(|(centre, strength, softening)| Central {
+                            centre,
+                            strength,
+                            softening,
+                        }),
+                    },
+                    wall,
+                    integrator: INTEGRATORS[row],
+                    scale: Scale {
+                        length_exponent: e[0],
+                        speed_exponent: e[1],
+                        density_exponent: 3 + e[2],
+                    },
+                    ..water()
+                }
+            },
+        )
 }
 
 /// Particles thrown at random; some on one point.
@@ -210,7 +246,11 @@ fn recipe<const D: usize>() -> impl Strategy<Value = Recipe<D>> {
                 let first = fluid[0].0;
                 fluid.last_mut().unwrap().0 = first;
             }
-            Recipe { parameters, fluid, walls }
+            Recipe {
+                parameters,
+                fluid,
+                walls,
+            }
         })
 }
 
