@@ -1,8 +1,8 @@
 //! What ends a run is typed, and names the particle and the step.
 
 use loschmidt_core::fault::MAX_NEIGHBOURS;
-use loschmidt_core::integrator::{INTEGRATORS, PEFRL};
-use loschmidt_core::model::{Central, DensityCorrection, Gravity, SetupError, Wall};
+use loschmidt_core::integrator::{INTEGRATORS, Integrator, PEFRL, Stage};
+use loschmidt_core::model::{Central, DensityCorrection, Gravity, SetupError, StateEquation, Wall};
 use loschmidt_core::number::{Arithmetic, LIMIT_BITS, Quantity};
 use loschmidt_core::owned::{Owned, PushError};
 use loschmidt_core::{
@@ -313,6 +313,60 @@ fn a_crowd_of_walls_is_a_fault_of_the_fluid_beside_it() {
         let step = u64::from(wall != Wall::Dummy);
         assert_eq!(found, Err(fault(FaultKind::Crowded, 0, step)));
     }
+}
+
+static KICK: Integrator = Integrator {
+    name: "kick",
+    order: 1,
+    evaluations: 1,
+    stages: &[Stage::Kick(1.0)],
+};
+
+/// As many fluid neighbours as are allowed, all on one point, and as many walls on another, all
+/// pushing particle 0 along the first axis; the velocities of the first two after one kick, m/s.
+fn push(sound_speed: f64, energy: f64, gravity: f64, speed: f64) -> Result<[f64; 2], Fault> {
+    let parameters = Parameters {
+        max_buckets: 63,
+        sound_speed,
+        state_equation: StateEquation::Linear,
+        density_correction: DensityCorrection::None,
+        integrator: &KICK,
+        gravity: Gravity {
+            uniform: [gravity, 0.0],
+            central: None,
+        },
+        wall: Wall::Conservative {
+            energy,
+            radius: 0.1,
+            softening: 0.01,
+        },
+        ..units()
+    };
+    let mut system =
+        Box::new(Heap::new(Symplectic::new(Forces::new(parameters).unwrap())).unwrap());
+    system.push_fluid([0.0; 2], [speed, 0.0]).unwrap();
+    for _ in 0..MAX_NEIGHBOURS {
+        system.push_fluid([-0.15, 0.0], [0.0; 2]).unwrap();
+        system.push_wall([-0.04, 0.0]).unwrap();
+    }
+    system.initialise(&Serial)?;
+    system.advance(1, &Serial)?;
+    let (_, parts) = system.parts();
+    let v = |i: usize| parts.state.velocity[i][0].quanta::<f64>() * 2f64.powi(-40);
+    Ok([v(0), v(1)])
+}
+
+#[test]
+fn a_sum_of_very_many_large_terms_is_a_fault_and_not_a_wrap() {
+    // Tune both forces so that every single term lies just inside the range.
+    let many = f64::from(MAX_NEIGHBOURS);
+    let (tiny, wanted) = (1e-15, 2048.0 * 0.999_97);
+    let of_fluid = push(1.0, tiny, 0.0, 0.0).unwrap()[0] / many;
+    let of_wall = push(tiny, 1e-3, 0.0, 0.0).unwrap()[0] / many;
+    let (sound_speed, energy) = ((wanted / of_fluid).sqrt(), 1e-3 * wanted / of_wall);
+    // Half a range of gravity and all of a range of velocity on top.
+    let pushed = push(sound_speed, energy, 0.5 * 2048.0 * 1024.0, 2047.0);
+    assert_eq!(pushed, Err(fault(FaultKind::VelocityRange, 0, 1)));
 }
 
 #[test]
