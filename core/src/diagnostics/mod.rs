@@ -39,7 +39,9 @@ impl Diagnostics {
     /// Measures the system; brings its densities up to date, and changes nothing else.
     ///
     /// # Errors
-    /// As [`Model::update_density`], with the number of steps that led to this state.
+    /// As [`Model::update_density`], and [`crate::FaultKind::DensityNotPositive`], which has no
+    /// internal energy: a row that ends with a drift leaves densities that no kick has looked at.
+    /// The fault carries the number of steps that led to this state.
     pub fn measure<A, M, E, const D: usize>(
         model: &M,
         system: &mut System<'_, A, D>,
