@@ -10,7 +10,8 @@ use loschmidt_core::{
     Parameters, Scale, Serial, Symplectic,
 };
 use loschmidt_tests::small::{
-    BUCKETS, FLUID, Recipe, SPACING, Small, conservative, dam_3d, downwards, shuffle, water,
+    BUCKETS, FLUID, Recipe, SPACING, Small, conservative, dam_3d, displace, downwards, shuffle,
+    water,
 };
 
 /// Far apart: nobody feels anybody.
@@ -432,6 +433,26 @@ fn a_fault_found_while_measuring_names_the_step_that_the_state_is_at() {
     parts.progress.step = 7;
     let found = Diagnostics::measure(model, &mut parts, &Serial).unwrap_err();
     assert_eq!(found, fault(FaultKind::Crowded, 0, 7));
+}
+
+#[test]
+fn a_density_that_is_not_positive_has_no_energy() {
+    for state_equation in [StateEquation::Tait, StateEquation::Linear] {
+        for seed in 0..4 {
+            let mut recipe = burst(6);
+            recipe.parameters.state_equation = state_equation;
+            let mut system = recipe.symplectic();
+            // Apart, without a step: no kick has seen these densities.
+            for place in [2, 3, 4, 5] {
+                displace(&mut system, place, 1, (place as i64) << 46);
+            }
+            let (model, mut parts) = system.parts();
+            shuffle(&mut parts, seed);
+            parts.progress.step = 3;
+            let found = Diagnostics::measure(model, &mut parts, &Serial).unwrap_err();
+            assert_eq!(found, fault(FaultKind::DensityNotPositive, 0, 3));
+        }
+    }
 }
 
 #[test]

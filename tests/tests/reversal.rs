@@ -91,6 +91,19 @@ fn particles_that_meet_on_one_point_return() {
 }
 
 #[test]
+fn a_particle_pushed_in_the_middle_of_a_run_is_felt_from_the_first_kick() {
+    for wall in [conservative(), Wall::Dummy] {
+        let mut system = dam_2d(wall, INTEGRATORS[0]).symplectic();
+        system.advance(5, &Serial).unwrap();
+        system.push_fluid([0.3, 0.3], [0.0; 2]).unwrap();
+        system.push_wall([0.35, 0.9]).unwrap();
+        let [initial, far, last] = there_and_back(&mut system, 20);
+        assert_eq!(initial, last);
+        assert_ne!(initial, far);
+    }
+}
+
+#[test]
 fn every_state_on_the_way_back_is_a_state_of_the_way_out() {
     for integrator in INTEGRATORS {
         let mut system = dam_2d(conservative(), integrator).symplectic();
