@@ -22,8 +22,12 @@ pub enum FaultKind {
     Crowded,
 }
 
-/// Most terms in one integer sum: each is below 2^51, so their sum stays below 2^63.
-pub const MAX_NEIGHBOURS: u32 = 4095;
+/// Most neighbours in one pass over pairs.
+///
+/// An integer takes at most two passes in one kick (fluid and walls), two terms of gravity, or the
+/// particle's own term and C_a, and the velocity itself: 2 * 2046 + 3 numbers of at most 2^51
+/// each. That is below 2^63, so no sum can wrap back into the range unseen.
+pub const MAX_NEIGHBOURS: u32 = 2046;
 
 /// A particle that could not go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -34,7 +38,8 @@ pub struct Fault {
     /// Id of the particle; the smallest one where several fail in the same pass. Wall particles
     /// count on from the last fluid particle.
     pub particle: u64,
-    /// Number of the step, counting from 1 over both legs of a run; 0 while it is set up.
+    /// Number of the step, counting from 1 over both legs of a run; 0 while it is set up. Found by
+    /// a measurement, it is the number of the last step.
     pub step: u64,
 }
 

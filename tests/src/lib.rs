@@ -1,1 +1,11 @@
-//! The claims of Loschmidt, as tests: see `tests/`.
+//! The claims of Loschmidt, as tests: see `tests/`. Here is what they share.
+//!
+//! - [`permitted`]: every error that a test allows, in one place, each with its reason. A test that
+//!   is not listed there compares bits.
+//! - [`small`]: small systems in `heapless` vectors, the same recipe for every scheme, dimension
+//!   and arithmetic.
+//! - [`generator`]: numbers that look random and are the same everywhere.
+
+pub mod generator;
+pub mod permitted;
+pub mod small;
