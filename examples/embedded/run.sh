@@ -23,6 +23,8 @@ repo=$(cd -- "$here/../.." && pwd)
 readonly here repo
 readonly store=$repo/.firmware
 readonly root=$store/root
+oldest_rust=$(awk -F'"' '/^rust-version/ { print $2 }' "$repo/Cargo.toml")
+readonly oldest_rust
 
 # Every apt and dpkg message that this script reads is then in English.
 export LC_ALL=C
@@ -90,9 +92,14 @@ library_path() {
 }
 
 # Whether what is there can run: each program and each library finds all it links to. Also false
-# where a system library that was there at the time of the download has gone since.
+# where a system library that was there at the time of the download has gone since, or where the
+# workspace has moved on to a newer Rust.
 complete() {
-    [[ -e $store/complete && -z $(unmet_libraries) ]]
+    [[ -e $store/complete && -x $root/usr/bin/rustc && -x $root/usr/bin/qemu-system-arm ]] &&
+        [[ -z $(unmet_libraries) ]] && new_enough "$(<"$store/complete")"
+}
+new_enough() { # VERSION: whether that rustc-web compiles what the workspace asks for
+    dpkg --compare-versions "$1" ge "$oldest_rust"
 }
 unmet_libraries() {
     LD_LIBRARY_PATH=$(library_path) ldd "$root"/usr/bin/{rustc,qemu-system-arm} |
@@ -100,7 +107,7 @@ unmet_libraries() {
 }
 
 fetch() {
-    local command version oldest libraries
+    local command version libraries
     for command in apt-get apt-cache dpkg dpkg-deb dpkg-query; do
         command -v "$command" >/dev/null || skip "no $command here: it downloads Debian packages"
     done
@@ -112,11 +119,12 @@ fetch() {
     # One source that does not answer need not matter: whether the packages come is what counts.
     apt-get "${apt_options[@]}" update >"$store/apt/update.log" 2>&1 || true
 
+    compgen -G "$store/apt/lists/*_Packages*" >/dev/null ||
+        skip "apt-get update brought no package list: $(grep -m1 '^[EW]:' "$store/apt/update.log" || echo 'no reason given')"
+
     version=$(candidate rustc-web)
     [[ -n $version ]] || skip "the system's apt sources do not offer the package rustc-web"
-    oldest=$(awk -F'"' '/^rust-version/ { print $2 }' "$repo/Cargo.toml")
-    dpkg --compare-versions "$version" ge "$oldest" ||
-        skip "the newest rustc-web on offer is $version, older than $oldest"
+    new_enough "$version" || skip "the newest rustc-web on offer is $version, older than $oldest_rust"
     [[ -n $(candidate qemu-system-arm) ]] ||
         skip "the system's apt sources do not offer the package qemu-system-arm"
 
@@ -153,7 +161,7 @@ END
 
     rm -rf -- "$store/debs" "$store/apt"
     # Last, so that an interrupted run is not taken for a finished one.
-    touch "$store/complete"
+    printf '%s\n' "$version" >"$store/complete"
     complete || fail "the unpacked programs lack shared libraries: $(unmet_libraries | xargs)"
 }
 
@@ -211,8 +219,12 @@ firmware_cargo build --offline --release -p loschmidt-firmware --target-dir "$he
 readonly elf=$here/target/$target/release/loschmidt-firmware
 
 say "building and running the host twin"
-host=$(host_cargo run --offline --quiet --release -p loschmidt-examples --example embedded_twin) ||
-    fail "the host twin does not build, or did not return to its first state: ${host:-no output}"
+host_cargo build --offline --quiet --release -p loschmidt-examples --example embedded_twin >&2 ||
+    fail "the host twin does not build"
+if ! host=$(host_cargo run --offline --quiet --release -p loschmidt-examples --example embedded_twin); then
+    say "the host printed:"$'\n'"$host"
+    fail "the host twin ended with an error, or not in its first state"
+fi
 
 # --- running --------------------------------------------------------------------------------------
 
@@ -227,7 +239,10 @@ elapsed=$(awk -v a="$started" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - 
 case $status in
 0) ;;
 124) fail "timeout: not done after $emulation_limit_s s" ;;
-*) fail "the emulator ended with $status and printed: ${chip:-nothing}" ;;
+*)
+    say "the emulated board printed:"$'\n'"$chip"
+    fail "the emulator ended with $status"
+    ;;
 esac
 
 # --- comparing ------------------------------------------------------------------------------------
