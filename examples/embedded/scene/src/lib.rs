@@ -211,5 +211,6 @@ fn digest(state: &State) -> u128 {
         hasher.write(&body.position.to_bits().to_le_bytes());
         hasher.write(&body.velocity.to_bits().to_le_bytes());
     }
-    hasher.finish128().as_u128()
+    // Not `as_u128`: on a big-endian machine that swaps the bytes within each half.
+    u128::from_le_bytes(hasher.finish128().as_bytes())
 }
