@@ -1,0 +1,163 @@
+//! The digest: a 128-bit fingerprint of a state, the same on every machine.
+//!
+//! All integers are written as little-endian 64-bit words, whatever the machine's own order and
+//! word size. H is SipHash-2-4 with a 128-bit result and an all-zero key (Aumasson & Bernstein,
+//! INDOCRYPT 2012), over bytes.
+//!
+//! Per particle, H of
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 8 | 0 for fluid, 1 for a wall |
+//! | 8 | id |
+//! | 8 each | fluid: every field of the state, in order, component by component |
+//! | 8 each | walls: position, component by component; density field |
+//!
+//! These hashes are added as 128-bit integers, modulo 2^128, so the order of storage is
+//! irrelevant. The digest is H of
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 20 | ASCII `loschmidt digest 1.0` |
+//! | 8 | dimension |
+//! | 8 | 0 for fixed-point, 1 for floating-point state |
+//! | 24 | the exponents k, j, d of the [`Scale`], two's complement |
+//! | 16 | number of fluid particles, of wall particles |
+//! | 8 + n, each | for every field: the length of its name, the name in ASCII |
+//! | 16 | the sum, least significant byte first |
+//!
+//! Words of a fixed-point state are its integers; of a floating-point one, the bits of the `f64`
+//! with negative zero as zero. As text, a digest is 32 hexadecimal digits, its bytes in order.
+
+use crate::number::{Arithmetic, Quantity, Scale};
+use crate::state::System;
+use core::fmt;
+use siphasher::sip128::SipHasher24;
+
+/// A fingerprint of a state.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Digest(pub [u8; 16]);
+
+impl fmt::Display for Digest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.iter().try_for_each(|byte| write!(f, "{byte:02x}"))
+    }
+}
+
+impl fmt::Debug for Digest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+/// SipHash-2-4-128 with a zero key, over bytes.
+#[must_use]
+pub fn hash(bytes: &[u8]) -> [u8; 16] {
+    SipHasher24::new().hash(bytes).as_bytes()
+}
+
+/// Most words in one particle's record: kind, id, position, velocity, density in 3D.
+const MAX_WORDS: usize = 9;
+
+/// Fluid or wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// 0.
+    Fluid,
+    /// 1.
+    Wall,
+}
+
+/// What the digest says of the whole state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Header<'a> {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// False for a floating-point state.
+    pub fixed_point: bool,
+    /// Units.
+    pub scale: Scale,
+    /// Number of fluid particles.
+    pub fluid: u64,
+    /// Number of wall particles.
+    pub walls: u64,
+    /// Names of the fields, in order; three names of at most 32 bytes.
+    pub fields: [&'a str; 3],
+}
+
+/// The order-free sum of the particles' hashes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ParticleSum(u128);
+
+impl ParticleSum {
+    /// Adds a particle with these words (at most 7) after kind and id.
+    pub fn add(&mut self, kind: Kind, id: u64, words: impl IntoIterator<Item = i64>) {
+        let mut bytes = [0u8; 8 * MAX_WORDS];
+        let mut used = 0;
+        let head = [i64::from(kind == Kind::Wall), id as i64];
+        for word in head.into_iter().chain(words) {
+            bytes[used..used + 8].copy_from_slice(&word.to_le_bytes());
+            used += 8;
+        }
+        self.0 = self
+            .0
+            .wrapping_add(u128::from_le_bytes(hash(&bytes[..used])));
+    }
+
+    /// The digest of header and sum.
+    #[must_use]
+    pub fn finish(self, header: &Header<'_>) -> Digest {
+        // 20 + 56 + 3 * (8 + 32) + 16 bytes at most.
+        let mut bytes = heapless::Vec::<u8, 256>::new();
+        let mut push = |more: &[u8]| {
+            let _ = bytes.extend_from_slice(more);
+        };
+        push(b"loschmidt digest 1.0");
+        for word in [
+            header.dimension as i64,
+            i64::from(!header.fixed_point),
+            i64::from(header.scale.length_exponent),
+            i64::from(header.scale.speed_exponent),
+            i64::from(header.scale.density_exponent),
+            header.fluid as i64,
+            header.walls as i64,
+        ] {
+            push(&word.to_le_bytes());
+        }
+        for name in header.fields {
+            push(&(name.len() as u64).to_le_bytes());
+            push(name.as_bytes());
+        }
+        push(&self.0.to_le_bytes());
+        Digest(hash(&bytes))
+    }
+}
+
+/// The digest of fluid and walls.
+#[must_use]
+pub fn digest<A: Arithmetic, const D: usize>(system: &System<'_, A, D>, scale: &Scale) -> Digest {
+    let state = &system.state;
+    let walls = &system.walls;
+    let fields = state.fields();
+    let mut sum = ParticleSum::default();
+    for (place, id) in state.id.iter().enumerate() {
+        let words = fields
+            .iter()
+            .enumerate()
+            .flat_map(|(f, field)| (0..field.components).map(move |c| state.word(f, c, place)));
+        sum.add(Kind::Fluid, *id, words);
+    }
+    for (w, (x, density)) in walls.position.iter().zip(&*walls.density).enumerate() {
+        let words = x.iter().map(|x| x.to_word());
+        let id = (state.len() + w) as u64;
+        sum.add(Kind::Wall, id, words.chain([density.to_word()]));
+    }
+    sum.finish(&Header {
+        dimension: D,
+        fixed_point: A::EXACT,
+        scale: *scale,
+        fluid: state.len() as u64,
+        walls: walls.position.len() as u64,
+        fields: fields.map(|field| field.name),
+    })
+}

@@ -1,0 +1,73 @@
+//! What can end a run: always typed, never a wrap, never a deleted particle.
+
+use thiserror::Error;
+
+/// Why a particle could not go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum FaultKind {
+    /// A position component reached 2^51 quanta.
+    #[error("its position left the number range")]
+    PositionRange,
+    /// A velocity component reached 2^51 quanta.
+    #[error("its velocity left the number range")]
+    VelocityRange,
+    /// One pair term (or the pull of gravity in one kick) reached 2^51 quanta or was not a number.
+    #[error("the force between it and a neighbour left the number range")]
+    TermRange,
+    /// The density is zero or negative.
+    #[error("its density is not positive")]
+    DensityNotPositive,
+    /// More neighbours than an integer sum is guaranteed to hold.
+    #[error("it has more than {MAX_NEIGHBOURS} neighbours")]
+    Crowded,
+}
+
+/// Most terms in one integer sum: each is below 2^51, so their sum stays below 2^63.
+pub const MAX_NEIGHBOURS: u32 = 4095;
+
+/// A particle that could not go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("particle {particle} in step {step}: {kind}")]
+pub struct Fault {
+    /// The reason.
+    pub kind: FaultKind,
+    /// Id of the particle; the smallest one where several fail in the same pass. Wall particles
+    /// count on from the last fluid particle.
+    pub particle: u64,
+    /// Number of the step, counting from 1 over both legs of a run; 0 while it is set up.
+    pub step: u64,
+}
+
+impl Fault {
+    pub(crate) fn new(kind: FaultKind, particle: u64) -> Self {
+        Self {
+            kind,
+            particle,
+            step: 0,
+        }
+    }
+    pub(crate) fn at_step(self, step: u64) -> Self {
+        Self { step, ..self }
+    }
+    /// Of two faults in one pass, the one that is reported: independent of who finds it first.
+    #[must_use]
+    pub fn first(self, other: Self) -> Self {
+        if other.particle < self.particle {
+            other
+        } else {
+            self
+        }
+    }
+}
+
+/// Lent memory is too small or of unequal length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error("{what}: room for {needed} needed, {given} given")]
+pub struct CapacityError {
+    /// The slice that is too small.
+    pub what: &'static str,
+    /// Elements needed.
+    pub needed: usize,
+    /// Elements lent.
+    pub given: usize,
+}

@@ -1,0 +1,468 @@
+//! What the schemes share: forces, kicks and drifts.
+
+use super::parameters::{DensityCorrection, Parameters, SetupError, Wall};
+use super::passes::{
+    ContinuityPass, DensityPass, PressurePass, WallEnergyPass, WallGeometry, WallPass,
+};
+use crate::executor::{Executor, Ids, Targets};
+use crate::fault::{Fault, FaultKind};
+use crate::kernel::WendlandC2;
+use crate::neighbours::Grid;
+use crate::number::{Arithmetic, Quantity, Real};
+use crate::pairs::Sources;
+use crate::state::{State, System};
+
+/// A slice of units as long as anything: what a pass reads that needs no more than positions.
+pub(crate) const UNITS: &[()] = &[(); u32::MAX as usize];
+
+/// Forces of weakly compressible SPH in D dimensions, ready to be evaluated.
+#[derive(Clone, Debug)]
+pub struct Forces<A: Arithmetic, const D: usize> {
+    parameters: Parameters<D>,
+    kernel: WendlandC2<A::Real>,
+    reach_squared: A::Real,
+    grid: Grid<D>,
+    wall_grid: Grid<D>,
+    /// 1/ρ0 in 1/quanta of density.
+    inverse_reference: A::Real,
+    /// ρ0 and m W(0), rounded to density quanta.
+    reference_density: A::Density,
+    own_density: A::Density,
+    /// Centre of the attracting mass.
+    centre: [A::Length; D],
+}
+
+impl<A: Arithmetic, const D: usize> Forces<A, D> {
+    /// Forces from parameters in SI units.
+    ///
+    /// # Errors
+    /// [`SetupError`] for a number out of range.
+    pub fn new(parameters: Parameters<D>) -> Result<Self, SetupError> {
+        parameters.check()?;
+        let p = &parameters;
+        let length_quantum = p.scale.length_quantum();
+        let density_quantum = p.scale.density_quantum();
+        let quanta = |name, metres: f64| {
+            Real::round(metres / length_quantum).ok_or(SetupError::Parameter {
+                name,
+                value: metres,
+            })
+        };
+        let reach = quanta("support_radius", p.support_radius)?;
+        let wall_reach = match p.wall {
+            Wall::Conservative { radius, .. } => quanta("wall radius", radius)?,
+            Wall::Dummy | Wall::None => reach,
+        };
+        let extent = p.extent.map(|e| (e / length_quantum) as i64);
+        let kernel = WendlandC2::new(D, p.support_radius, length_quantum);
+        let own =
+            kernel.value(A::Real::from_f64(0.0)) * A::Real::from_f64(p.mass / density_quantum);
+        let mut centre = [A::Length::ZERO; D];
+        if let Some(central) = &p.gravity.central {
+            for (c, &metres) in centre.iter_mut().zip(&central.centre) {
+                *c = c
+                    .add_rounded(metres / length_quantum)
+                    .ok_or(SetupError::Parameter {
+                        name: "gravity.central.centre",
+                        value: metres,
+                    })?;
+            }
+        }
+        let reach_real = A::Real::from_f64(p.support_radius / length_quantum);
+        Ok(Self {
+            kernel,
+            reach_squared: reach_real * reach_real,
+            grid: Grid::new(reach, extent, p.max_buckets),
+            wall_grid: Grid::new(wall_reach, extent, p.max_buckets),
+            inverse_reference: A::Real::from_f64(density_quantum / p.reference_density),
+            reference_density: A::Density::ZERO
+                .add_rounded(p.reference_density / density_quantum)
+                .ok_or(SetupError::Parameter {
+                    name: "reference_density",
+                    value: p.reference_density,
+                })?,
+            own_density: A::Density::ZERO
+                .add_rounded(own)
+                .ok_or(SetupError::Support {
+                    support_radius: p.support_radius,
+                })?,
+            centre,
+            parameters,
+        })
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn parameters(&self) -> &Parameters<D> {
+        &self.parameters
+    }
+    /// Geometry of the fluid's cells.
+    #[must_use]
+    pub fn grid(&self) -> &Grid<D> {
+        &self.grid
+    }
+    /// Geometry of the walls' cells.
+    #[must_use]
+    pub fn wall_grid(&self) -> &Grid<D> {
+        &self.wall_grid
+    }
+    /// ρ/ρ0.
+    #[inline]
+    pub fn relative_density(&self, density: A::Density) -> A::Real {
+        density.quanta::<A::Real>() * self.inverse_reference
+    }
+    /// The density sum (5).
+    #[must_use]
+    pub fn density_pass(&self) -> DensityPass<A::Real> {
+        let scale = self.parameters.scale;
+        DensityPass {
+            kernel: self.kernel,
+            reach_squared: self.reach_squared,
+            mass: A::Real::from_f64(self.parameters.mass / scale.density_quantum()),
+        }
+    }
+    /// The pressure impulse (1b).
+    #[must_use]
+    pub fn pressure_pass(&self) -> PressurePass<A::Real> {
+        PressurePass {
+            kernel: self.kernel,
+            reach_squared: self.reach_squared,
+        }
+    }
+    /// The continuity sum (1a) over `duration` seconds.
+    #[must_use]
+    pub fn continuity_pass(&self, duration: f64) -> ContinuityPass<A::Real> {
+        let s = self.parameters.scale;
+        let units = s.speed_quantum() * s.length_quantum() / s.density_quantum();
+        ContinuityPass {
+            kernel: self.kernel,
+            reach_squared: self.reach_squared,
+            factor: A::Real::from_f64((duration * self.parameters.mass) * units),
+        }
+    }
+    fn wall_geometry(&self) -> Option<(f64, WallGeometry<A::Real>)> {
+        let Wall::Conservative {
+            energy,
+            radius,
+            softening,
+        } = self.parameters.wall
+        else {
+            return None;
+        };
+        let quantum = self.parameters.scale.length_quantum();
+        let (r, e) = (radius / quantum, softening / quantum);
+        let geometry = WallGeometry {
+            radius_squared: A::Real::from_f64(r * r),
+            softening_squared: A::Real::from_f64(e * e),
+        };
+        Some((energy, geometry))
+    }
+    /// The impulse of a conservative wall over `duration` seconds, if there is one.
+    #[must_use]
+    pub fn wall_pass(&self, duration: f64) -> Option<WallPass<A::Real>> {
+        let (energy, geometry) = self.wall_geometry()?;
+        let s = self.parameters.scale;
+        let units = s.length_quantum() * s.speed_quantum();
+        Some(WallPass {
+            geometry,
+            factor: A::Real::from_f64((duration * energy) / units),
+        })
+    }
+    /// The energy of a conservative wall, if there is one, with its unit E in J/kg.
+    #[must_use]
+    pub fn wall_energy_pass(&self) -> Option<(f64, WallEnergyPass<A::Real>)> {
+        let (energy, geometry) = self.wall_geometry()?;
+        Some((energy, WallEnergyPass { geometry }))
+    }
+
+    /// Sorts the fluid into its cells, and the walls the first time.
+    pub(super) fn sort(&self, system: &mut System<'_, A, D>) {
+        let System {
+            state,
+            walls,
+            scratch,
+            progress,
+        } = system;
+        scratch.cells.sort(&self.grid, state.position);
+        if !progress.walls_sorted {
+            scratch.wall_cells.sort(&self.wall_grid, walls.position);
+            progress.walls_sorted = true;
+        }
+    }
+
+    /// The fluid as sources; the caller has sorted it.
+    pub(super) fn fluid<'s, T>(
+        &'s self,
+        system: &'s System<'_, A, D>,
+        read: &'s [T],
+    ) -> Sources<'s, A, T, D> {
+        Sources {
+            grid: &self.grid,
+            cells: system.scratch.cells.view(),
+            position: system.state.position,
+            read,
+        }
+    }
+
+    /// The walls as sources.
+    pub(crate) fn walls<'s, T>(
+        &'s self,
+        system: &'s System<'_, A, D>,
+        read: &'s [T],
+    ) -> Sources<'s, A, T, D> {
+        Sources {
+            grid: &self.wall_grid,
+            cells: system.scratch.wall_cells.view(),
+            position: system.walls.position,
+            read,
+        }
+    }
+
+    /// Σ m W over fluid and dummies, into `out` (which is overwritten), for every fluid particle.
+    pub(super) fn sum_density<E: Executor>(
+        &self,
+        system: &System<'_, A, D>,
+        exec: &E,
+        out: &mut [A::Density],
+    ) -> Result<(), Fault> {
+        out.fill(self.own_density);
+        let pass = self.density_pass();
+        let mut to = Targets {
+            position: &*system.state.position,
+            read: UNITS,
+            id: Ids::Listed(system.state.id),
+            same_set: true,
+        };
+        exec.sum(&pass, &to, &self.fluid(system, UNITS), out)?;
+        if self.has_dummies(system) {
+            to.same_set = false;
+            exec.sum(&pass, &to, &self.walls(system, UNITS), out)?;
+        }
+        Ok(())
+    }
+
+    /// Adds to `out` Σ m W over the fluid, for every wall particle.
+    pub(super) fn add_fluid_to_walls<E: Executor>(
+        &self,
+        system: &System<'_, A, D>,
+        exec: &E,
+        out: &mut [A::Density],
+    ) -> Result<(), Fault> {
+        let to = Targets {
+            position: &*system.walls.position,
+            read: UNITS,
+            id: Ids::From(system.state.len() as u64),
+            same_set: false,
+        };
+        exec.sum(&self.density_pass(), &to, &self.fluid(system, UNITS), out)
+    }
+
+    /// Σ m W over the walls themselves, into `out`, for every wall particle.
+    pub(super) fn sum_walls<E: Executor>(
+        &self,
+        system: &System<'_, A, D>,
+        exec: &E,
+        out: &mut [A::Density],
+    ) -> Result<(), Fault> {
+        out.fill(self.own_density);
+        let to = Targets {
+            position: &*system.walls.position,
+            read: UNITS,
+            id: Ids::From(system.state.len() as u64),
+            same_set: true,
+        };
+        exec.sum(&self.density_pass(), &to, &self.walls(system, UNITS), out)
+    }
+
+    pub(crate) fn has_dummies(&self, system: &System<'_, A, D>) -> bool {
+        matches!(self.parameters.wall, Wall::Dummy) && !system.walls.position.is_empty()
+    }
+
+    /// The reference density, or C_a = ρ0 - `sum` for a constant correction.
+    pub(super) fn density_constant(&self, sum: A::Density) -> A::Density {
+        match self.parameters.density_correction {
+            DensityCorrection::Constant => self.reference_density.plus(sum.negated()),
+            DensityCorrection::None => A::Density::ZERO,
+        }
+    }
+    /// Centre of the attracting mass, in length quanta.
+    pub(crate) fn centre(&self) -> &[A::Length; D] {
+        &self.centre
+    }
+    pub(super) fn reference_density(&self) -> A::Density {
+        self.reference_density
+    }
+
+    /// Gravity in a kick of `duration` seconds at this position, in speed quanta.
+    fn gravity(&self, x: &[A::Length; D], duration: f64) -> Option<[A::Speed; D]> {
+        let s = self.parameters.scale;
+        let mut impulse = [A::Speed::ZERO; D];
+        for (i, g) in impulse.iter_mut().zip(self.parameters.gravity.uniform) {
+            *i = i.add_rounded(duration * g / s.speed_quantum())?;
+        }
+        if let Some(central) = &self.parameters.gravity.central {
+            let soft = central.softening / s.length_quantum();
+            let (x_ic, r2) = crate::pairs::separation::<A, D>(x, &self.centre);
+            let r2 = r2.to_f64() + soft * soft;
+            let units = s.length_quantum() * s.length_quantum() * s.speed_quantum();
+            let factor = (duration * central.strength / units) / (r2 * libm::sqrt(r2));
+            for (i, x) in impulse.iter_mut().zip(x_ic) {
+                *i = i.add_rounded(-(factor * x.to_f64()))?;
+            }
+        }
+        Some(impulse)
+    }
+
+    /// Fills the scratch with the impulses of a kick of `c` time steps, from its densities.
+    fn impulses<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        c: f64,
+    ) -> Result<(), Fault> {
+        let duration = c * self.parameters.time_step;
+        self.pressures(system, exec, duration)?;
+        let impulse = core::mem::take(&mut system.scratch.impulse);
+        let result = self.sum_impulses(system, exec, duration, impulse);
+        system.scratch.impulse = impulse;
+        result
+    }
+
+    fn sum_impulses<E: Executor>(
+        &self,
+        system: &System<'_, A, D>,
+        exec: &E,
+        duration: f64,
+        impulse: &mut [[A::Speed; D]],
+    ) -> Result<(), Fault> {
+        let State { id, position, .. } = &system.state;
+        exec.for_each(impulse, |i, out| {
+            *out = self
+                .gravity(&position[i], duration)
+                .ok_or_else(|| Fault::new(FaultKind::TermRange, id[i]))?;
+            Ok(())
+        })?;
+        let pressure = &*system.scratch.pressure;
+        let mut to = Targets {
+            position,
+            read: pressure,
+            id: Ids::Listed(id),
+            same_set: true,
+        };
+        let pass = self.pressure_pass();
+        exec.sum(&pass, &to, &self.fluid(system, pressure), impulse)?;
+        if self.has_dummies(system) {
+            to.same_set = false;
+            let walls = self.walls(system, &*system.scratch.wall_pressure);
+            exec.sum(&pass, &to, &walls, impulse)?;
+        }
+        if let Some(pass) = self.wall_pass(duration) {
+            let to = Targets {
+                position,
+                read: UNITS,
+                id: Ids::Listed(id),
+                same_set: false,
+            };
+            exec.sum(&pass, &to, &self.walls(system, UNITS), impulse)?;
+        }
+        Ok(())
+    }
+
+    /// -κ m p/ρ² of fluid and dummies, in the units of [`PressurePass`].
+    fn pressures<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        duration: f64,
+    ) -> Result<(), Fault> {
+        let p = &self.parameters;
+        let units = p.scale.length_quantum() / p.scale.speed_quantum();
+        let factor = (duration * p.mass) * (p.sound_speed * p.sound_speed / p.reference_density);
+        let factor = A::Real::from_f64(-(factor * units));
+        let of = |density: A::Density, id: u64| {
+            let x = self.relative_density(density);
+            if x > A::Real::from_f64(0.0) {
+                Ok(factor * p.state_equation.pressure_over_density_squared(x))
+            } else {
+                Err(Fault::new(FaultKind::DensityNotPositive, id))
+            }
+        };
+        let dummies = self.has_dummies(system);
+        let n = system.state.len() as u64;
+        let System { state, scratch, .. } = system;
+        let (density, id) = (&*scratch.density, &*state.id);
+        exec.for_each(scratch.pressure, |i, out| {
+            *out = of(density[i], id[i])?;
+            Ok(())
+        })?;
+        if dummies {
+            let density = &*scratch.wall_density;
+            exec.for_each(scratch.wall_pressure, |i, out| {
+                *out = of(density[i], n + i as u64)?;
+                Ok(())
+            })?;
+        }
+        Ok(())
+    }
+
+    /// v ← v + R(c dt a), from the densities in the scratch. Impulses are kept until a drift: two
+    /// kicks of the same share at the same positions add the same integers.
+    pub(super) fn kick<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        c: f64,
+    ) -> Result<(), Fault> {
+        if system.progress.impulse_for != Some(c.to_bits()) {
+            system.progress.impulse_for = None;
+            self.impulses(system, exec, c)?;
+            system.progress.impulse_for = Some(c.to_bits());
+        }
+        let State { id, velocity, .. } = &mut system.state;
+        let (id, impulse) = (&**id, &*system.scratch.impulse);
+        exec.for_each(velocity, |i, v| {
+            for (v, j) in v.iter_mut().zip(impulse[i]) {
+                *v = v.plus(j);
+            }
+            if v.iter().all(|v| v.in_range()) {
+                Ok(())
+            } else {
+                Err(Fault::new(FaultKind::VelocityRange, id[i]))
+            }
+        })
+    }
+
+    /// x ← x + R(c dt v).
+    pub(super) fn drift<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        c: f64,
+    ) -> Result<(), Fault> {
+        system.progress.impulse_for = None;
+        system.progress.density_current = false;
+        let s = self.parameters.scale;
+        let units = s.speed_quantum() / s.length_quantum();
+        let factor = A::Real::from_f64((c * self.parameters.time_step) * units);
+        let State {
+            id,
+            position,
+            velocity,
+            ..
+        } = &mut system.state;
+        let (id, velocity) = (&**id, &**velocity);
+        exec.for_each(position, |i, x| {
+            let mut inside = true;
+            for (x, v) in x.iter_mut().zip(&velocity[i]) {
+                let moved = x.add_rounded(v.quanta::<A::Real>() * factor);
+                inside &= moved.is_some_and(Quantity::in_range);
+                *x = moved.unwrap_or(*x);
+            }
+            if inside {
+                Ok(())
+            } else {
+                Err(Fault::new(FaultKind::PositionRange, id[i]))
+            }
+        })
+    }
+}

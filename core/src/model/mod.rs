@@ -1,0 +1,78 @@
+//! Models: what moves the particles.
+//!
+//! [`Forces`] holds what the schemes of weakly compressible SPH share: kernel, state equation,
+//! gravity, walls. [`Symplectic`] is the reversible scheme of Kincl & Pavelka, Comput. Phys.
+//! Commun. 284 (2023) 108593; [`Standard`] is the usual one that it is compared with. Each writes
+//! its own short step.
+
+mod forces;
+mod parameters;
+mod passes;
+mod standard;
+mod state_equation;
+mod symplectic;
+
+pub use forces::Forces;
+pub(crate) use forces::UNITS;
+pub use parameters::{Central, DensityCorrection, Gravity, Parameters, SetupError, Wall};
+pub use passes::{ContinuityPass, DensityPass, PressurePass, WallEnergyPass, WallPass};
+pub use standard::Standard;
+pub use state_equation::StateEquation;
+pub use symplectic::Symplectic;
+
+use crate::executor::Executor;
+use crate::fault::Fault;
+use crate::number::Arithmetic;
+use crate::state::{DensityRole, System};
+
+/// What reversing the velocities does to a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reversibility {
+    /// n steps, reversed, n steps: the first state, to the last bit.
+    BitExact,
+    /// A symmetric scheme whose sums are rounded differently on the way back.
+    UpToRounding,
+    /// The scheme itself is not symmetric in time.
+    Irreversible,
+}
+
+/// A scheme: how a system is set up and advanced by one step.
+pub trait Model<A: Arithmetic, const D: usize>: Sync + Sized {
+    /// Name used in scenes and snapshots.
+    const NAME: &'static str;
+    /// Part of the type: no caller can reverse an irreversible model by mistake.
+    const REVERSIBILITY: Reversibility;
+    /// Meaning of the state's density field.
+    const DENSITY_ROLE: DensityRole;
+
+    /// The model with these forces.
+    fn new(forces: Forces<A, D>) -> Self;
+
+    /// What the schemes share.
+    fn forces(&self) -> &Forces<A, D>;
+
+    /// Fills the density fields of fluid and walls from the initial positions. Called once at
+    /// step 0; never again, neither on reversal nor on resumption.
+    ///
+    /// # Errors
+    /// Density terms out of range, too many neighbours.
+    fn initialise<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E)
+    -> Result<(), Fault>;
+
+    /// Brings the densities in the scratch up to date with the positions.
+    ///
+    /// # Errors
+    /// As a step.
+    fn update_density<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault>;
+
+    /// One step.
+    ///
+    /// # Errors
+    /// The particle and the step that left the number range or lost its density. The state is
+    /// then somewhere within the step and of no use.
+    fn step<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault>;
+}

@@ -1,0 +1,165 @@
+//! Parameters of the weakly compressible models, in SI units.
+
+use super::StateEquation;
+use crate::integrator::Integrator;
+use crate::number::Scale;
+use thiserror::Error;
+
+/// Attraction by a fixed mass: a = -GM x/(|x|² + s²)^(3/2), x measured from the centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Central<const D: usize> {
+    /// Position of the mass, m.
+    pub centre: [f64; D],
+    /// GM, m³/s².
+    pub strength: f64,
+    /// s, m.
+    pub softening: f64,
+}
+
+/// External forces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gravity<const D: usize> {
+    /// Uniform acceleration, m/s².
+    pub uniform: [f64; D],
+    /// A fixed attracting mass.
+    pub central: Option<Central<D>>,
+}
+
+/// How walls act on the fluid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wall {
+    /// Not at all.
+    None,
+    /// The repulsion of section 3.3: per fluid mass, with s = (r_w² + ε²)/(r² + ε²) for r < r_w,
+    /// energy E (s - 1)²/4 and acceleration E (s² - s) x_ij/(r² + ε²). Footnote 3 gives E per mass.
+    Conservative {
+        /// E, J/kg.
+        energy: f64,
+        /// r_w, m.
+        radius: f64,
+        /// ε, m.
+        softening: f64,
+    },
+    /// Fixed particles that take part in density and pressure like the fluid.
+    Dummy,
+}
+
+/// What makes up for the missing neighbours at a free surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DensityCorrection {
+    /// C_a = ρ0 - Σ m W at step 0, eq. (5).
+    Constant,
+    /// C_a = 0, eq. (4).
+    None,
+}
+
+/// Parameters of a model in D dimensions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters<const D: usize> {
+    /// h, where the kernel vanishes, m.
+    pub support_radius: f64,
+    /// dt, s.
+    pub time_step: f64,
+    /// Mass of every particle, kg (per m of depth in 2D).
+    pub mass: f64,
+    /// ρ0, kg/m³.
+    pub reference_density: f64,
+    /// c, m/s.
+    pub sound_speed: f64,
+    /// p(ρ).
+    pub state_equation: StateEquation,
+    /// Treatment of the free surface.
+    pub density_correction: DensityCorrection,
+    /// External forces.
+    pub gravity: Gravity<D>,
+    /// Walls.
+    pub wall: Wall,
+    /// Row of the integrator table.
+    pub integrator: &'static Integrator,
+    /// Units of the state.
+    pub scale: Scale,
+    /// Size of the region where particles are expected, m: it sizes the grid, nothing else.
+    pub extent: [f64; D],
+    /// Most buckets for the fluid's cells, and for the walls' cells.
+    pub max_buckets: usize,
+}
+
+/// Parameters that no model can be built from.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum SetupError {
+    /// A parameter is not a finite number in its range.
+    #[error("{name} = {value} is out of range")]
+    Parameter {
+        /// Which.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The kernel at r = 0 weighs more than one density term may.
+    #[error(
+        "the support radius {support_radius} m is too small for the mass of a particle: m W(0) is out of range"
+    )]
+    Support {
+        /// h, m.
+        support_radius: f64,
+    },
+}
+
+impl<const D: usize> Parameters<D> {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// The first parameter that is not finite or not in its range.
+    pub fn check(&self) -> Result<(), SetupError> {
+        let mut positive = [
+            ("support_radius", self.support_radius),
+            ("time_step", self.time_step),
+            ("mass", self.mass),
+            ("reference_density", self.reference_density),
+            ("sound_speed", self.sound_speed),
+            ("wall energy", 1.0),
+            ("wall radius", 1.0),
+        ];
+        let mut not_negative = [("wall softening", 0.0), ("central softening", 0.0)];
+        if let Wall::Conservative {
+            energy,
+            radius,
+            softening,
+        } = self.wall
+        {
+            positive[5].1 = energy;
+            positive[6].1 = radius;
+            not_negative[0].1 = softening;
+        }
+        let mut finite = self.gravity.uniform;
+        if let Some(central) = &self.gravity.central {
+            not_negative[1].1 = central.softening;
+            for (f, c) in finite.iter_mut().zip(central.centre) {
+                *f += 0.0 * c; // a NaN or an infinity shows
+            }
+            finite[0] += 0.0 * central.strength;
+        }
+        let bad = |(name, value)| Err(SetupError::Parameter { name, value });
+        for (name, value) in positive {
+            if !(value > 0.0 && value.is_finite()) {
+                return bad((name, value));
+            }
+        }
+        for (name, value) in not_negative {
+            if !(value >= 0.0 && value.is_finite()) {
+                return bad((name, value));
+            }
+        }
+        for value in finite {
+            if !value.is_finite() {
+                return bad(("gravity", value));
+            }
+        }
+        for value in self.extent {
+            if !(value >= 0.0 && value.is_finite()) {
+                return bad(("extent", value));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,146 @@
+//! The reversible scheme: density by summation, eq. (5), forces (1b), a symmetric integrator.
+//!
+//! ρ_a = Σ_b m W(r_ab) + C_a is a function of the positions, so the semi-discrete equations are
+//! canonical, H = Σ m (v²/2 + ε(ρ) + gravity) + walls, and every row of the integrator table is
+//! symplectic, symmetric and, in fixed point, exactly reversible.
+//!
+//! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, sections 2 to 4.
+
+use super::{Forces, Model, Reversibility};
+use crate::executor::Executor;
+use crate::fault::Fault;
+use crate::integrator::Stage;
+use crate::number::{Arithmetic, Quantity};
+use crate::state::{DensityRole, System};
+
+/// Reversible weakly compressible SPH ("model A").
+#[derive(Clone, Debug)]
+pub struct Symplectic<A: Arithmetic, const D: usize> {
+    forces: Forces<A, D>,
+}
+
+impl<A: Arithmetic, const D: usize> Symplectic<A, D> {
+    fn update_wall_density<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        if !self.forces.has_dummies(system) {
+            return Ok(());
+        }
+        let density = core::mem::take(&mut system.scratch.wall_density);
+        density.copy_from_slice(system.scratch.wall_density_fixed);
+        let result = self.forces.add_fluid_to_walls(system, exec, density);
+        system.scratch.wall_density = density;
+        result
+    }
+
+    /// Σ over the walls themselves plus C_a: constant, since neither changes.
+    fn fix_wall_density<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        if !self.forces.has_dummies(system) {
+            return Ok(());
+        }
+        let fixed = core::mem::take(&mut system.scratch.wall_density_fixed);
+        let result = self.forces.sum_walls(system, exec, fixed);
+        for (f, c) in fixed.iter_mut().zip(&*system.walls.density) {
+            *f = f.plus(*c);
+        }
+        system.scratch.wall_density_fixed = fixed;
+        result
+    }
+}
+
+impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
+    const NAME: &'static str = "symplectic";
+    const REVERSIBILITY: Reversibility = if A::EXACT {
+        Reversibility::BitExact
+    } else {
+        Reversibility::UpToRounding
+    };
+    const DENSITY_ROLE: DensityRole = DensityRole::Constant;
+
+    fn new(forces: Forces<A, D>) -> Self {
+        Self { forces }
+    }
+
+    fn forces(&self) -> &Forces<A, D> {
+        &self.forces
+    }
+
+    fn initialise<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        let forces = &self.forces;
+        system.progress.invalidate();
+        forces.sort(system);
+        let sum = core::mem::take(&mut system.scratch.density);
+        let result = forces.sum_density(system, exec, sum);
+        for (c, s) in system.state.density.iter_mut().zip(&*sum) {
+            *c = forces.density_constant(*s);
+        }
+        system.scratch.density = sum;
+        result?;
+        system.walls.density.fill(A::Density::ZERO);
+        if forces.has_dummies(system) {
+            self.fix_wall_density(system, exec)?;
+            self.update_wall_density(system, exec)?;
+            let sums = &*system.scratch.wall_density;
+            for (c, s) in system.walls.density.iter_mut().zip(sums) {
+                *c = forces.density_constant(*s);
+            }
+        }
+        // The fixed part of the walls' density still lacks C_a.
+        system.progress.invalidate();
+        Ok(())
+    }
+
+    fn update_density<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        if system.progress.density_current {
+            return Ok(());
+        }
+        let fresh = !system.progress.walls_sorted;
+        self.forces.sort(system);
+        if fresh {
+            self.fix_wall_density(system, exec)?;
+        }
+        let density = core::mem::take(&mut system.scratch.density);
+        let result = self.forces.sum_density(system, exec, density);
+        for (rho, c) in density.iter_mut().zip(&*system.state.density) {
+            *rho = rho.plus(*c);
+        }
+        system.scratch.density = density;
+        result?;
+        self.update_wall_density(system, exec)?;
+        system.progress.density_current = true;
+        Ok(())
+    }
+
+    fn step<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
+        let step = system.progress.step + 1;
+        let mut stages = || {
+            for stage in self.forces.parameters().integrator.stages {
+                match *stage {
+                    Stage::Kick(c) => {
+                        self.update_density(system, exec)?;
+                        self.forces.kick(system, exec, c)?;
+                    }
+                    Stage::Drift(c) => self.forces.drift(system, exec, c)?,
+                }
+            }
+            Ok(())
+        };
+        stages().map_err(|fault: Fault| fault.at_step(step))?;
+        system.progress.step = step;
+        Ok(())
+    }
+}

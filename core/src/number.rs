@@ -1,0 +1,322 @@
+//! Number formats: fixed point for the state, floating point for one pair at a time.
+//!
+//! A coordinate is an integer multiple of a *quantum*, and the position of the binary point is
+//! part of its type:
+//!
+//! | quantity | type | quantum | range kept |
+//! |---|---|---|---|
+//! | position | [`Length`] = `FixedI64<U46>` | 2^(k-46) m | 2^51 quanta = 2^(k+5) m |
+//! | velocity, impulse | [`Speed`] = `FixedI64<U40>` | 2^(j-40) m/s | 2^51 quanta = 2^(j+11) m/s |
+//! | density | [`Density`] = `FixedI64<U40>` | 2^(d-40) kg/m³ | one term: 2^51 quanta = 2^(d+11) kg/m³ |
+//!
+//! The exponents k, j, d belong to the scene and are chosen at run time ([`Scale`]); conversion by
+//! a power of two is exact. The range is 2^51 quanta although 64 bits would hold more, because then
+//! a *difference* of two positions stays below 2^53 quanta and is exact as an `f64`.
+//!
+//! # The one rounding rule, and why it is odd
+//!
+//! Every number that enters the state is computed in floating point and rounded once by
+//! [`Real::round`], to the nearest integer, ties to even:
+//!
+//! R(x) = (x + 3·2^51) - 3·2^51, for |x| < 2^51.
+//!
+//! In that range x + 3·2^51 lies in [2^52, 2^53), where the spacing of `f64` is one: the addition
+//! itself rounds to an integer, ties to even, and the low bits of the sum hold it. R is odd,
+//! R(-x) = -R(x): the integers nearest to -x are the negatives of those nearest to x, and a tie goes
+//! to the even one of two neighbours, whose negative is even too. All of `+ - * / sqrt` are odd in
+//! the same sense, so a pair term that is antisymmetric on paper is antisymmetric in its bits, and
+//! a drift with the reversed velocity undoes a drift.
+//!
+//! The magnitude is tested *before* the conversion, and in a form that a NaN fails; a cast with
+//! `as` would have turned it into 0.
+
+use core::fmt::Debug;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+use fixed::FixedI64;
+use fixed::types::extra::{LeEqU64, U40, U46, Unsigned};
+
+/// A position or displacement component, in scene units of 2^k m.
+pub type Length = FixedI64<U46>;
+/// A velocity or impulse-per-mass component, in scene units of 2^j m/s.
+pub type Speed = FixedI64<U40>;
+/// A density, in scene units of 2^d kg/m³.
+pub type Density = FixedI64<U40>;
+
+/// Largest magnitude, in quanta, that rounding accepts and that the state may hold: 2^51.
+pub const LIMIT_BITS: i64 = 1 << 51;
+const LIMIT: f64 = LIMIT_BITS as f64;
+/// 3·2^51: adding it rounds any |x| < 2^51 to an integer.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// Pair arithmetic: the floating-point type in which one pair term is computed.
+///
+/// The hosts use `f64`. The trait is kept small so that an `f32` with its own rounding may serve
+/// targets where a double costs a hundred instructions; the state stays 64 bits wide either way.
+pub trait Real:
+    Copy
+    + Debug
+    + PartialOrd
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + 'static
+{
+    /// Nearest value of this type.
+    fn from_f64(x: f64) -> Self;
+    /// Nearest value of this type; exact for `f64` up to 2^53.
+    fn from_i64(x: i64) -> Self;
+    /// The value as a double.
+    fn to_f64(self) -> f64;
+    /// Square root, correctly rounded.
+    fn sqrt(self) -> Self;
+    /// R(x), the only way into the state; `None` for |x| >= 2^51 and for a NaN.
+    fn round(self) -> Option<i64>;
+}
+
+impl Real for f64 {
+    #[inline]
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+    #[inline]
+    fn from_i64(x: i64) -> Self {
+        x as f64
+    }
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+    #[inline]
+    fn round(self) -> Option<i64> {
+        // Written so that a NaN fails it.
+        if self.abs() < LIMIT {
+            let shifted = (self + ROUNDER).to_bits();
+            Some(shifted.wrapping_sub(ROUNDER.to_bits()) as i64)
+        } else {
+            None
+        }
+    }
+}
+
+/// One component of the state: a fixed-point number, or the float it is compared with.
+pub trait Quantity: Copy + Default + Debug + PartialEq + Send + Sync + 'static {
+    /// Zero.
+    const ZERO: Self;
+    /// The value in quanta, as a real; exact within the state's range for `f64`.
+    fn quanta<R: Real>(self) -> R;
+    /// The nearest whole number of quanta, for exact diagnostics.
+    fn whole_quanta(self) -> i64;
+    /// `self - other` in quanta, exact for fixed point within range.
+    fn difference<R: Real>(self, other: Self) -> R;
+    /// `self + R(x)` with x in quanta; `None` where |x| >= 2^51 or x is a NaN.
+    fn add_rounded<R: Real>(self, x: R) -> Option<Self>;
+    /// `self + other`; wraps at 2^63 quanta, which the range checks of the state keep out of reach.
+    fn plus(self, other: Self) -> Self;
+    /// `-self`.
+    fn negated(self) -> Self;
+    /// True within the range of the state, |x| < 2^51 quanta.
+    fn in_range(self) -> bool;
+    /// Index of the cell of `size` quanta that holds this coordinate: floor(x / size).
+    fn cell(self, size: i64) -> i64;
+    /// The 64 bits that snapshots store and digests hash; a negative zero counts as zero.
+    fn to_word(self) -> i64;
+    /// Inverse of [`Quantity::to_word`].
+    fn from_word(word: i64) -> Self;
+}
+
+impl<Frac: Unsigned + LeEqU64 + Send + Sync + 'static> Quantity for FixedI64<Frac> {
+    const ZERO: Self = FixedI64::ZERO;
+    #[inline]
+    fn quanta<R: Real>(self) -> R {
+        R::from_i64(self.to_bits())
+    }
+    #[inline]
+    fn whole_quanta(self) -> i64 {
+        self.to_bits()
+    }
+    #[inline]
+    fn difference<R: Real>(self, other: Self) -> R {
+        R::from_i64(self.wrapping_sub(other).to_bits())
+    }
+    #[inline]
+    fn add_rounded<R: Real>(self, x: R) -> Option<Self> {
+        x.round()
+            .map(|bits| self.wrapping_add(Self::from_bits(bits)))
+    }
+    #[inline]
+    fn plus(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+    #[inline]
+    fn negated(self) -> Self {
+        self.wrapping_neg()
+    }
+    #[inline]
+    fn in_range(self) -> bool {
+        // One comparison for both signs: -2^51 < x < 2^51.
+        self.to_bits().unsigned_abs() < LIMIT_BITS as u64
+    }
+    #[inline]
+    fn cell(self, size: i64) -> i64 {
+        self.to_bits().div_euclid(size)
+    }
+    #[inline]
+    fn to_word(self) -> i64 {
+        self.to_bits()
+    }
+    #[inline]
+    fn from_word(word: i64) -> Self {
+        Self::from_bits(word)
+    }
+}
+
+/// The floating-point counterpart, in quanta: what the paper calls FloPA.
+impl Quantity for f64 {
+    const ZERO: Self = 0.0;
+    #[inline]
+    fn quanta<R: Real>(self) -> R {
+        R::from_f64(self)
+    }
+    #[inline]
+    fn whole_quanta(self) -> i64 {
+        libm::rint(self) as i64
+    }
+    #[inline]
+    fn difference<R: Real>(self, other: Self) -> R {
+        R::from_f64(self - other)
+    }
+    #[inline]
+    fn add_rounded<R: Real>(self, x: R) -> Option<Self> {
+        let x = x.to_f64();
+        (x.abs() < LIMIT).then_some(self + x)
+    }
+    #[inline]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+    #[inline]
+    fn negated(self) -> Self {
+        -self
+    }
+    #[inline]
+    fn in_range(self) -> bool {
+        self.abs() < LIMIT
+    }
+    #[inline]
+    fn cell(self, size: i64) -> i64 {
+        libm::floor(self / size as f64) as i64
+    }
+    #[inline]
+    fn to_word(self) -> i64 {
+        (self + 0.0).to_bits() as i64
+    }
+    #[inline]
+    fn from_word(word: i64) -> Self {
+        f64::from_bits(word as u64)
+    }
+}
+
+/// Which numbers the state is made of, and in which the pair terms are computed.
+pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
+    /// Type of a position component.
+    type Length: Quantity;
+    /// Type of a velocity or impulse component.
+    type Speed: Quantity;
+    /// Type of a density.
+    type Density: Quantity;
+    /// Type of a pair term before it is rounded.
+    type Real: Real;
+    /// `"fixed"` or `"float"`; part of the digest's header.
+    const NAME: &'static str;
+    /// True where the sums do not depend on their order, and so a step can be undone exactly.
+    const EXACT: bool;
+}
+
+/// Fixed-point state, pair terms in `R`: exact sums, exact reversal.
+#[derive(Clone, Copy, Debug)]
+pub struct Fixed<R = f64>(core::marker::PhantomData<R>);
+
+impl<R: Real> Arithmetic for Fixed<R> {
+    type Length = Length;
+    type Speed = Speed;
+    type Density = Density;
+    type Real = R;
+    const NAME: &'static str = "fixed";
+    const EXACT: bool = true;
+}
+
+/// Floating-point state with the same pair terms, summed in the order the neighbours come:
+/// the control experiment that does not return.
+#[derive(Clone, Copy, Debug)]
+pub struct Float;
+
+impl Arithmetic for Float {
+    type Length = f64;
+    type Speed = f64;
+    type Density = f64;
+    type Real = f64;
+    const NAME: &'static str = "float";
+    const EXACT: bool = false;
+}
+
+/// The scene's units as powers of two: lengths of 2^k m, speeds of 2^j m/s, densities of 2^d kg/m³.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scale {
+    /// k: positions are kept for |x| < 2^(k+5) m.
+    pub length_exponent: i32,
+    /// j: velocities and impulses are kept for |v| < 2^(j+11) m/s.
+    pub speed_exponent: i32,
+    /// d: one term of a density sum is kept below 2^(d+11) kg/m³.
+    pub density_exponent: i32,
+}
+
+/// 2^e, exactly.
+#[must_use]
+pub fn power_of_two(e: i32) -> f64 {
+    libm::ldexp(1.0, e)
+}
+
+/// Smallest e with 2^e >= x, for finite x > 0.
+fn exponent_at_least(x: f64) -> i32 {
+    let (fraction, e) = libm::frexp(x);
+    if fraction == 0.5 { e - 1 } else { e }
+}
+
+impl Scale {
+    /// Units that leave headroom: positions up to 4 times `extent` (largest |coordinate|, m),
+    /// speeds and impulses up to 16 times `speed` (of sound, m/s), density terms up to
+    /// 2 times `density` (kg/m³). All three must be positive and finite.
+    ///
+    /// A dam break in a box of 4 m, with 120 m/s and 1000 kg/m³, gets k = j = d = 0.
+    #[must_use]
+    pub fn with_headroom(extent: f64, speed: f64, density: f64) -> Self {
+        Self {
+            length_exponent: exponent_at_least(4.0 * extent) - 5,
+            speed_exponent: exponent_at_least(16.0 * speed) - 11,
+            density_exponent: exponent_at_least(2.0 * density) - 11,
+        }
+    }
+    /// Metres per quantum of [`Length`].
+    #[must_use]
+    pub fn length_quantum(&self) -> f64 {
+        power_of_two(self.length_exponent - 46)
+    }
+    /// Metres per second per quantum of [`Speed`].
+    #[must_use]
+    pub fn speed_quantum(&self) -> f64 {
+        power_of_two(self.speed_exponent - 40)
+    }
+    /// kg/m³ per quantum of [`Density`].
+    #[must_use]
+    pub fn density_quantum(&self) -> f64 {
+        power_of_two(self.density_exponent - 40)
+    }
+}

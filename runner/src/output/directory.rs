@@ -1,0 +1,269 @@
+//! The directory of a run: created without overwriting, written file by file.
+
+use super::manifest::Manifest;
+use super::series::{self, SeriesWriter};
+use super::snapshot::{Snapshot, SnapshotError};
+use super::{particles_csv, pvd, vtp};
+use crate::frame::Frame;
+use crate::run::Row;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Something could not be written or read back.
+#[derive(Debug, Error)]
+pub enum OutputError {
+    /// The directory is there already.
+    #[error("{} exists already; choose another --out, or replace the run in it with --force", .0.display())]
+    Exists(PathBuf),
+    /// The file system said no.
+    #[error("cannot {what} {}: {source}", path.display())]
+    Io {
+        /// What was tried.
+        what: &'static str,
+        /// With which file.
+        path: PathBuf,
+        /// Why not.
+        source: std::io::Error,
+    },
+    /// Not a directory that a run left.
+    #[error("{} is not the directory of a run: {why}", path.display())]
+    NotARun {
+        /// The directory.
+        path: PathBuf,
+        /// What is missing or wrong.
+        why: String,
+    },
+    /// A snapshot of the run cannot be read.
+    #[error(transparent)]
+    Snapshot(#[from] SnapshotError),
+}
+
+/// An open run directory.
+pub struct RunDirectory {
+    path: PathBuf,
+    series: SeriesWriter<File>,
+    frames: Vec<(f64, String)>,
+}
+
+const MANIFEST: &str = "manifest.json";
+const SCENE: &str = "scene.toml";
+const SERIES: &str = "series.csv";
+const PVD: &str = "particles.pvd";
+const FRAMES: &str = "frames";
+const SNAPSHOTS: &str = "snapshots";
+
+/// The first of `runs/<scene>-1`, `-2`, … that does not exist.
+#[must_use]
+pub fn free_directory(scene: &str) -> PathBuf {
+    (1u64..)
+        .map(|n| Path::new("runs").join(format!("{scene}-{n}")))
+        .find(|path| fs::symlink_metadata(path).is_err())
+        .unwrap_or_else(|| Path::new("runs").join(scene))
+}
+
+fn io(what: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> OutputError {
+    let path = path.to_owned();
+    move |source| OutputError::Io { what, path, source }
+}
+
+/// Writes beside the file and renames, so that a reader sees the old or the new, never a half.
+fn replace(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    let beside = path.with_extension("part");
+    fs::write(&beside, bytes).map_err(io("write", &beside))?;
+    fs::rename(&beside, path).map_err(io("replace", path))
+}
+
+impl RunDirectory {
+    /// Creates the directory. With `force` an earlier run in it is removed, other files are not.
+    ///
+    /// # Errors
+    /// It exists already, or cannot be created.
+    pub fn create(path: &Path, force: bool) -> Result<Self, OutputError> {
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(io("create", parent))?;
+        }
+        match fs::create_dir(path) {
+            Ok(()) => {}
+            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {
+                if !force || !path.is_dir() {
+                    return Err(OutputError::Exists(path.to_owned()));
+                }
+                remove_run(path)?;
+            }
+            Err(error) => return Err(io("create", path)(error)),
+        }
+        for sub in [FRAMES, SNAPSHOTS] {
+            let sub = path.join(sub);
+            fs::create_dir_all(&sub).map_err(io("create", &sub))?;
+        }
+        let series = path.join(SERIES);
+        let file = File::create(&series).map_err(io("create", &series))?;
+        Ok(Self {
+            path: path.to_owned(),
+            series: SeriesWriter::new(file),
+            frames: Vec::new(),
+        })
+    }
+
+    /// Opens the directory of an earlier run to go on after `step`: rows after it are dropped.
+    ///
+    /// # Errors
+    /// Not a run, or not readable.
+    pub fn reopen(path: &Path, step: u64) -> Result<(Self, Vec<Row>), OutputError> {
+        let series = path.join(SERIES);
+        let file = File::open(&series).map_err(io("read", &series))?;
+        let mut rows = series::read(file).map_err(io("read", &series))?;
+        rows.retain(|row| row.step <= step);
+        // The rewritten file replaces the old one whole, so that an interruption here loses nothing.
+        let beside = series.with_extension("part");
+        let file = File::create(&beside).map_err(io("create", &beside))?;
+        let mut writer = SeriesWriter::new(file);
+        for row in &rows {
+            writer.write(row).map_err(io("write", &beside))?;
+        }
+        fs::rename(&beside, &series).map_err(io("replace", &series))?;
+        let directory = Self {
+            path: path.to_owned(),
+            series: writer,
+            frames: Vec::new(),
+        };
+        Ok((directory, rows))
+    }
+
+    /// Where it is.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Path of a snapshot by its name.
+    #[must_use]
+    pub fn snapshot_path(path: &Path, name: &str) -> PathBuf {
+        path.join(SNAPSHOTS).join(format!("{name}.snapshot"))
+    }
+
+    /// Reads the manifest of a run.
+    ///
+    /// # Errors
+    /// Not a run.
+    pub fn read_manifest(path: &Path) -> Result<Manifest, OutputError> {
+        let file = path.join(MANIFEST);
+        let not_a_run = |why: String| OutputError::NotARun {
+            path: path.to_owned(),
+            why,
+        };
+        let text = fs::read_to_string(&file)
+            .map_err(|e| not_a_run(format!("{MANIFEST} cannot be read ({e})")))?;
+        serde_json::from_str(&text)
+            .map_err(|e| not_a_run(format!("{MANIFEST} cannot be understood ({e})")))
+    }
+
+    /// Path of the resolved scene.
+    #[must_use]
+    pub fn scene_path(path: &Path) -> PathBuf {
+        path.join(SCENE)
+    }
+
+    /// Writes the resolved scene.
+    ///
+    /// # Errors
+    /// The file system's.
+    pub fn write_scene(&self, text: &str) -> Result<(), OutputError> {
+        replace(&self.path.join(SCENE), text.as_bytes())
+    }
+
+    /// Writes the manifest.
+    ///
+    /// # Errors
+    /// The file system's.
+    pub fn write_manifest(&self, manifest: &Manifest) -> Result<(), OutputError> {
+        let path = self.path.join(MANIFEST);
+        let mut text = serde_json::to_string_pretty(manifest)
+            .map_err(|e| io("write", &path)(std::io::Error::other(e)))?;
+        text.push('\n');
+        replace(&path, text.as_bytes())
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// The file system's.
+    pub fn write_row(&mut self, row: &Row) -> Result<(), OutputError> {
+        let path = self.path.join(SERIES);
+        self.series.write(row).map_err(io("write", &path))
+    }
+
+    /// Writes a snapshot under this name, replacing an earlier one; returns where.
+    ///
+    /// # Errors
+    /// The file system's.
+    pub fn write_snapshot(&self, name: &str, snapshot: &Snapshot) -> Result<PathBuf, OutputError> {
+        let path = Self::snapshot_path(&self.path, name);
+        replace(&path, &snapshot.to_bytes())?;
+        Ok(path)
+    }
+
+    /// Notes a frame that an earlier part of the run has written.
+    pub fn note_frame(&mut self, elapsed: f64) {
+        let name = frame_name(self.frames.len());
+        self.frames.push((elapsed, format!("{FRAMES}/{name}.vtp")));
+    }
+
+    /// Writes a frame as CSV and VTP, and the collection anew.
+    ///
+    /// # Errors
+    /// The file system's.
+    pub fn write_frame(&mut self, frame: &Frame) -> Result<(), OutputError> {
+        let name = frame_name(self.frames.len());
+        let write = |extension: &str, fill: &dyn Fn(&mut dyn Write) -> std::io::Result<()>| {
+            let path = self.path.join(FRAMES).join(format!("{name}.{extension}"));
+            let file = File::create(&path).map_err(io("create", &path))?;
+            let mut writer = BufWriter::new(file);
+            fill(&mut writer)
+                .and_then(|()| writer.flush())
+                .map_err(io("write", &path))
+        };
+        write("csv", &|w| particles_csv::write(frame, w))?;
+        write("vtp", &|w| vtp::write(frame, w))?;
+        self.note_frame(frame.elapsed);
+        let mut text = Vec::new();
+        let path = self.path.join(PVD);
+        pvd::write(&self.frames, &mut text).map_err(io("write", &path))?;
+        replace(&path, &text)
+    }
+}
+
+fn frame_name(n: usize) -> String {
+    format!("particles-{n:06}")
+}
+
+/// Removes what a run writes, and nothing else.
+fn remove_run(path: &Path) -> Result<(), OutputError> {
+    for name in [MANIFEST, SCENE, SERIES, PVD] {
+        let file = path.join(name);
+        match fs::remove_file(&file) {
+            Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+                return Err(io("remove", &file)(e));
+            }
+            _ => {}
+        }
+    }
+    for (sub, extensions) in [(FRAMES, &["csv", "vtp"][..]), (SNAPSHOTS, &["snapshot", "part"])] {
+        let sub = path.join(sub);
+        let Ok(entries) = fs::read_dir(&sub) else {
+            continue;
+        };
+        for entry in entries.flatten() {
+            let file = entry.path();
+            let ours = file
+                .extension()
+                .is_some_and(|e| extensions.iter().any(|ours| e == *ours));
+            if ours {
+                fs::remove_file(&file).map_err(io("remove", &file))?;
+            }
+        }
+    }
+    Ok(())
+}

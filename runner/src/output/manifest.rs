@@ -1,0 +1,47 @@
+//! `manifest.json`: what a run directory is, for people and for `resume`.
+
+use crate::run::{Digests, Outcome};
+use serde::{Deserialize, Serialize};
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// At work, or killed without a chance to say so.
+    Running,
+    /// Stopped by a signal; can be resumed.
+    Interrupted,
+    /// Ended as planned.
+    Finished,
+    /// Left the number range.
+    Failed,
+}
+
+/// The manifest.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Version of the program that wrote it.
+    pub version: String,
+    /// Name of the scene.
+    pub scene: String,
+    /// How far it has come.
+    pub status: Status,
+    /// Steps taken over both legs.
+    pub steps: u64,
+    /// Steps planned for both legs.
+    pub steps_planned: u64,
+    /// `fixed` or `float`.
+    pub arithmetic: String,
+    /// The executor asked for.
+    pub executor: String,
+    /// The threads asked for.
+    pub threads: usize,
+    /// What ended a failed run.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub failure: Option<String>,
+    /// The digests known so far.
+    pub digest: Digests,
+    /// The result of a finished run; written, never read back.
+    #[serde(skip_deserializing, skip_serializing_if = "Option::is_none", default)]
+    pub result: Option<Outcome>,
+}

@@ -1,0 +1,69 @@
+//! How a run can end before its end.
+
+use crate::output::OutputError;
+use crate::scene::SceneError;
+use crate::simulation::BuildError;
+use loschmidt_core::Fault;
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why there is no outcome.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The scene cannot be read or used.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The scene needs more memory than there is; nothing was allocated.
+    #[error(
+        "the scene needs about {} MiB of memory and {} MiB are available; choose a larger particle_spacing",
+        needed >> 20,
+        available >> 20
+    )]
+    Memory {
+        /// Bytes.
+        needed: u64,
+        /// Bytes.
+        available: u64,
+    },
+    /// The scene cannot be simulated.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A file could not be written or read.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The numbers ended.
+    #[error("the run ended at t = {time:.6} s: {fault}")]
+    Fault {
+        /// Particle and step.
+        fault: Fault,
+        /// Simulated time along both legs, s.
+        time: f64,
+        /// The last good state, one step before.
+        snapshot: Option<PathBuf>,
+    },
+    /// The numbers ended where they had not before: the memory of this machine is at fault.
+    #[error("a step that had succeeded failed when it was repeated: {0}")]
+    NotRepeatable(#[from] Fault),
+    /// A signal came.
+    #[error("interrupted after step {step}")]
+    Interrupted {
+        /// Steps taken.
+        step: u64,
+        /// Where to resume from.
+        path: Option<PathBuf>,
+    },
+    /// The run to be resumed has ended.
+    #[error("the run in {} has {}: there is nothing to resume", path.display(), if *failed { "failed" } else { "finished" })]
+    Ended {
+        /// Its directory.
+        path: PathBuf,
+        /// Whether it left the number range.
+        failed: bool,
+    },
+    /// A snapshot of another scene.
+    #[error("{} was taken of another scene than the scene.toml beside it", .0.display())]
+    ForeignSnapshot(PathBuf),
+    /// A run without rows has no outcome.
+    #[error("the run recorded nothing")]
+    NoRows,
+}

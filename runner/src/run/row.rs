@@ -1,0 +1,113 @@
+//! A row of the series: what is recorded of a state.
+
+use crate::player::Player;
+use loschmidt_core::{Diagnostics, Energies, Fault};
+use serde::{Deserialize, Serialize};
+
+/// One line of `series.csv`. The units stand in the names of the columns.
+///
+/// Everything is computed from the synchronised state by sums that no order can change: rows of the
+/// way back equal those of the way out to the last bit, but for the signs of the momenta.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Steps taken over both legs.
+    pub step: u64,
+    /// Steps from home along physical time.
+    pub position: i64,
+    /// 1 out, 2 back.
+    pub leg: u8,
+    /// Simulated time along both legs.
+    pub elapsed_s: f64,
+    /// Physical time.
+    pub time_s: f64,
+    /// Kinetic energy. Energies are per m of depth in 2D.
+    #[serde(rename = "kinetic_J")]
+    pub kinetic: f64,
+    /// Internal energy, zero at the reference density.
+    #[serde(rename = "internal_J")]
+    pub internal: f64,
+    /// Gravitational energy.
+    #[serde(rename = "gravitational_J")]
+    pub gravitational: f64,
+    /// Energy of the walls.
+    #[serde(rename = "wall_J")]
+    pub wall: f64,
+    /// Their sum.
+    #[serde(rename = "total_J")]
+    pub total: f64,
+    /// Σ v in speed quanta, an exact integer.
+    pub momentum_x_quanta: i128,
+    /// Σ v in speed quanta, an exact integer.
+    pub momentum_y_quanta: i128,
+    /// Σ v in speed quanta, an exact integer.
+    pub momentum_z_quanta: i128,
+    /// Angular momentum about the origin.
+    #[serde(rename = "angular_momentum_x_kg_m2_per_s")]
+    pub angular_momentum_x: f64,
+    /// Angular momentum about the origin.
+    #[serde(rename = "angular_momentum_y_kg_m2_per_s")]
+    pub angular_momentum_y: f64,
+    /// Angular momentum about the origin; the only component in 2D.
+    #[serde(rename = "angular_momentum_z_kg_m2_per_s")]
+    pub angular_momentum_z: f64,
+    /// Reduced Boltzmann entropy (17).
+    pub entropy: f64,
+    /// Its equilibrium value for the kinetic energy (21); empty at rest.
+    pub equilibrium_entropy_of_energy: Option<f64>,
+    /// Its equilibrium value for the fitted temperature (20); empty at rest.
+    pub equilibrium_entropy_of_fit: Option<f64>,
+    /// kT/m of the fit.
+    pub fitted_temperature_m2_per_s2: Option<f64>,
+    /// Particles faster than the last bin of the histogram.
+    pub faster_than_last_bin: u32,
+    /// Largest x of a particle: the leading edge.
+    pub front_m: f64,
+}
+
+impl Row {
+    /// Measures the player's state.
+    ///
+    /// # Errors
+    /// As a step.
+    pub fn measure(player: &mut Player, leg: u8) -> Result<Self, Fault> {
+        let d: Diagnostics = player.measure()?;
+        let e: Energies = d.energies;
+        let fit = d.histogram.fitted_temperature();
+        Ok(Self {
+            step: player.steps_taken(),
+            position: player.position(),
+            leg,
+            elapsed_s: player.steps_taken() as f64 * player.scene().time_step(),
+            time_s: player.time(),
+            kinetic: e.kinetic,
+            internal: e.internal,
+            gravitational: e.gravitational,
+            wall: e.wall,
+            total: e.total(),
+            momentum_x_quanta: d.momentum_quanta[0],
+            momentum_y_quanta: d.momentum_quanta[1],
+            momentum_z_quanta: d.momentum_quanta[2],
+            angular_momentum_x: d.angular_momentum[0],
+            angular_momentum_y: d.angular_momentum[1],
+            angular_momentum_z: d.angular_momentum[2],
+            entropy: d.histogram.entropy(),
+            equilibrium_entropy_of_energy: d.histogram.equilibrium_of_energy(),
+            equilibrium_entropy_of_fit: fit.and_then(|t| {
+                loschmidt_core::diagnostics::equilibrium_entropy(d.histogram.dimension, t)
+            }),
+            fitted_temperature_m2_per_s2: fit,
+            faster_than_last_bin: d.histogram.beyond,
+            front_m: d.front,
+        })
+    }
+
+    /// Σ v in speed quanta.
+    #[must_use]
+    pub fn momentum_quanta(&self) -> [i128; 3] {
+        [
+            self.momentum_x_quanta,
+            self.momentum_y_quanta,
+            self.momentum_z_quanta,
+        ]
+    }
+}

@@ -1,0 +1,153 @@
+//! From a scene to a simulation: the parameters of the core, its units, and the memory it takes.
+
+use crate::scene::{self, InitialState, Point, Scene};
+use crate::simulation::{BuildError, ModelKind, Options, Simulation, build};
+use crate::storage;
+use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
+use loschmidt_core::model::{Central, DensityCorrection, Gravity, StateEquation, Wall};
+use loschmidt_core::{Parameters, Scale};
+
+/// Sets up the scene's simulation at step 0.
+///
+/// # Errors
+/// [`BuildError`].
+pub fn simulation(
+    scene: &Scene,
+    initial: &InitialState,
+    options: &Options,
+) -> Result<Box<dyn Simulation>, BuildError> {
+    let model = match scene.model {
+        scene::Model::Symplectic => ModelKind::Symplectic,
+        scene::Model::Standard => ModelKind::Standard,
+    };
+    match scene.dimension {
+        scene::Dimension::Two => build::<2>(parameters(scene, initial), model, initial, options),
+        scene::Dimension::Three => build::<3>(parameters(scene, initial), model, initial, options),
+    }
+}
+
+/// The core's parameters of a scene.
+#[must_use]
+pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Parameters<D> {
+    let bounds = Bounds::of(initial);
+    let particles = initial.fluid.len() + initial.wall.len();
+    Parameters {
+        support_radius: scene.support_radius(),
+        time_step: scene.time_step(),
+        mass: scene.particle_mass(),
+        reference_density: scene.fluid.reference_density,
+        sound_speed: scene.fluid.sound_speed,
+        state_equation: match scene.fluid.equation_of_state {
+            scene::EquationOfState::Tait => StateEquation::Tait,
+            scene::EquationOfState::Linear => StateEquation::Linear,
+        },
+        density_correction: match scene.density_correction {
+            scene::DensityCorrection::Constant => DensityCorrection::Constant,
+            scene::DensityCorrection::None => DensityCorrection::None,
+        },
+        gravity: Gravity {
+            uniform: first(scene.gravity.uniform),
+            central: scene.gravity.central.map(|central| Central {
+                centre: first(central.centre),
+                strength: central.strength,
+                softening: central.softening,
+            }),
+        },
+        wall: wall(scene),
+        integrator: integrator(scene.integrator),
+        scale: Scale::with_headroom(
+            bounds.farthest,
+            scene.fluid.sound_speed,
+            scene.fluid.reference_density,
+        ),
+        extent: first(bounds.extent),
+        max_buckets: max_buckets(particles),
+    }
+}
+
+/// A scene's integrator as a row of the core's table.
+#[must_use]
+pub fn integrator(integrator: scene::Integrator) -> &'static Integrator {
+    match integrator {
+        scene::Integrator::StormerVerlet => &STORMER_VERLET,
+        scene::Integrator::Pefrl => &PEFRL,
+        scene::Integrator::Suzuki => &SUZUKI,
+    }
+}
+
+fn wall(scene: &Scene) -> Wall {
+    match (scene.wall_model, scene.wall) {
+        (scene::WallModel::Conservative, Some(wall)) => Wall::Conservative {
+            energy: wall.energy,
+            radius: wall.radius * scene.particle_spacing,
+            softening: wall.softening,
+        },
+        (scene::WallModel::Dummy, _) => Wall::Dummy,
+        // A conservative wall without parameters is a scene without wall particles.
+        (scene::WallModel::Conservative | scene::WallModel::None, _) => Wall::None,
+    }
+}
+
+fn max_buckets(particles: usize) -> usize {
+    2 * particles
+}
+
+fn first<const D: usize>(x: Point) -> [f64; D] {
+    std::array::from_fn(|d| x[d])
+}
+
+/// Where the particles are at the start.
+struct Bounds {
+    /// Largest |coordinate|, m.
+    farthest: f64,
+    /// Size of the bounding box, m.
+    extent: Point,
+}
+
+impl Bounds {
+    fn of(initial: &InitialState) -> Self {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for x in initial.fluid.iter().chain(&initial.wall) {
+            for d in 0..3 {
+                low[d] = low[d].min(x[d]);
+                high[d] = high[d].max(x[d]);
+            }
+        }
+        let farthest = (0..3).fold(f64::MIN_POSITIVE, |f: f64, d| {
+            f.max(low[d].abs()).max(high[d].abs())
+        });
+        Self {
+            farthest,
+            extent: std::array::from_fn(|d| (high[d] - low[d]).max(0.0)),
+        }
+    }
+}
+
+/// Bytes that a run of the scene takes at most, estimated before anything is allocated: the
+/// system, the initial state, the saved states at home and at the last good step, one frame.
+#[must_use]
+pub fn estimated_bytes(scene: &Scene) -> u64 {
+    let (fluid, walls) = scene.estimated_particles();
+    let dimension = match scene.dimension {
+        scene::Dimension::Two => 2,
+        scene::Dimension::Three => 3,
+    };
+    let buckets = 2 * max_buckets((fluid + walls) as usize) as u64;
+    let system = storage::bytes(dimension, fluid, walls, buckets);
+    let initial = 48 * fluid + 24 * walls;
+    let saved = 3 * 8 * ((2 * dimension + 2) * fluid + (dimension + 1) * walls);
+    let frame = 72 * fluid + 24 * walls;
+    system + initial + saved + frame
+}
+
+/// Bytes of memory that this machine can still give, where it can be told.
+#[must_use]
+pub fn available_memory() -> Option<u64> {
+    let mut system = sysinfo::System::new();
+    system.refresh_memory();
+    match system.available_memory() {
+        0 => None,
+        bytes => Some(bytes),
+    }
+}
