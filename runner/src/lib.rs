@@ -1,14 +1,31 @@
-//! The std side of Loschmidt: executors, storage, simulations.
+//! The std side of Loschmidt: from a scene file to the outcome of a run.
+//!
+//! ```text
+//! scene file -> Scene -> InitialState -> Simulation (core, any type) -> Player -> Run -> files
+//! ```
+//!
+//! 1. [`scene`]: the scene language, its errors, the catalogue.
+//! 2. [`setup`]: a scene's parameters for the core, and the memory it takes.
+//! 3. [`simulation`]: a simulation without type parameters; [`Rayon`], the parallel executor.
+//! 4. [`player`]: moves along time in both directions. Going back is integrating back.
+//! 5. [`run`]: out, turn, back, and what is recorded; [`output`]: the files.
 
 #![forbid(unsafe_code)]
 
 mod executor;
 pub mod frame;
+pub mod output;
+pub mod player;
+pub mod run;
 pub mod saved;
+pub mod scene;
+pub mod setup;
 pub mod simulation;
 mod storage;
 
 pub use executor::{ExecutorKind, Rayon};
 pub use frame::Frame;
+pub use player::{Arrow, Player};
+pub use run::{Outcome, Plan, Run, RunError};
 pub use saved::{ArithmeticKind, SavedState};
-pub use simulation::{BuildError, ModelKind, Options, Particles, Simulation};
+pub use simulation::{BuildError, ModelKind, Options, Simulation};

@@ -1,0 +1,51 @@
+//! The scenes that come with the program, each citing its source.
+
+/// A scene of the catalogue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CatalogueEntry {
+    /// The name by which it is run.
+    pub name: &'static str,
+    /// One line for a list.
+    pub title: &'static str,
+    /// Where its numbers come from.
+    pub citation: &'static str,
+    /// The scene file.
+    pub text: &'static str,
+}
+
+/// Every scene that comes with the program.
+#[must_use]
+pub fn catalogue() -> &'static [CatalogueEntry] {
+    ENTRIES
+}
+
+pub(super) fn entry(name: &str) -> Option<&'static CatalogueEntry> {
+    ENTRIES.iter().find(|entry| entry.name == name)
+}
+
+const ENTRIES: &[CatalogueEntry] = &[
+    CatalogueEntry {
+        name: "dam-break",
+        title: "a column of water collapses in an open box, and time is turned at 1 s",
+        citation: "Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, Table 1",
+        text: include_str!("../../scenes/dam-break.toml"),
+    },
+    CatalogueEntry {
+        name: "dam-break-3d",
+        title: "the dam break in three dimensions, about 16,000 particles",
+        citation: "after Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, Table 1",
+        text: include_str!("../../scenes/dam-break-3d.toml"),
+    },
+    CatalogueEntry {
+        name: "colliding-drops",
+        title: "two drops collide off-centre, without gravity or walls",
+        citation: "after Monaghan, J. Comput. Phys. 110 (1994) 399-406",
+        text: include_str!("../../scenes/colliding-drops.toml"),
+    },
+    CatalogueEntry {
+        name: "rotating-drop",
+        title: "a free drop in rigid rotation, without gravity or walls",
+        citation: "after Colagrossi, PhD thesis, Università di Roma La Sapienza (2005)",
+        text: include_str!("../../scenes/rotating-drop.toml"),
+    },
+];

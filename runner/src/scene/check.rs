@@ -1,0 +1,328 @@
+//! Checks what was written against the [schema](super::schema): every key is known, every
+//! value has its key's type and range. All mistakes are collected.
+
+use super::error::{Problem, ProblemKind};
+use super::nearest::nearest;
+use super::schema::{self, Key, Kind, Range, Section, listed, quoted};
+use super::spec::{Node, SceneSpec, Span, Table, Value};
+use super::words::Dimension;
+
+/// Every mistake that can be seen in one value alone.
+pub(super) fn check(spec: &SceneSpec) -> Vec<Problem> {
+    let mut checker = Checker {
+        spec,
+        dimension: dimension(&spec.root),
+        problems: Vec::new(),
+    };
+    checker.table(&spec.root, Section::Top);
+    checker.problems
+}
+
+/// The dimension of a scene; `None` when it is written wrongly.
+pub(super) fn dimension(root: &Table) -> Option<Dimension> {
+    match root.get("dimension").map(|entry| &entry.node.value) {
+        None | Some(Value::Integer(2)) => Some(Dimension::Two),
+        Some(Value::Integer(3)) => Some(Dimension::Three),
+        Some(_) => None,
+    }
+}
+
+/// A finite or infinite number, whole or not.
+pub(super) fn number(node: &Node) -> Option<f64> {
+    match node.value {
+        // Exact below 2^53, and rounded to the nearest number above.
+        Value::Integer(n) => Some(n as f64),
+        Value::Float(x) => Some(x),
+        _ => None,
+    }
+}
+
+/// The mistake of a key that does not exist.
+pub(super) fn unknown_key(spec: &SceneSpec, section: Section, name: &str, span: Span) -> Problem {
+    let dimension = dimension(&spec.root);
+    let here: Vec<&str> = schema::keys(section)
+        .filter(|key| key.only.is_none() || key.only == dimension)
+        .map(|key| key.name)
+        .collect();
+    let help = if let Some(meant) = nearest(name, here.iter().copied()) {
+        vec![format!("did you mean `{meant}`?")]
+    } else if let Some(key) = schema::KEYS.iter().find(|key| key.name == name) {
+        vec![format!("`{name}` is a key of {}", key.section.title())]
+    } else {
+        let all: Vec<String> = here.iter().map(|name| format!("`{name}`")).collect();
+        vec![format!(
+            "the keys of {} are {}",
+            section.title(),
+            listed(&all, "and")
+        )]
+    };
+    let message = match section {
+        Section::Top => format!("unknown key `{name}`"),
+        _ => format!("unknown key `{name}` in {}", section.title()),
+    };
+    spec.problem(ProblemKind::UnknownKey, message, span, help)
+}
+
+struct Checker<'a> {
+    spec: &'a SceneSpec,
+    dimension: Option<Dimension>,
+    problems: Vec<Problem>,
+}
+
+impl Checker<'_> {
+    fn report(&mut self, kind: ProblemKind, message: String, span: Span, help: Vec<String>) {
+        self.problems
+            .push(self.spec.problem(kind, message, span, help));
+    }
+
+    fn table(&mut self, table: &Table, section: Section) {
+        for entry in &table.entries {
+            let Some(key) = schema::find(section, &entry.name) else {
+                self.problems
+                    .push(unknown_key(self.spec, section, &entry.name, entry.key));
+                continue;
+            };
+            if let (Some(only), Some(dimension)) = (key.only, self.dimension)
+                && only != dimension
+            {
+                self.wrong_dimension(key, dimension, entry.key);
+                continue;
+            }
+            self.value(key, &entry.node);
+        }
+    }
+
+    fn wrong_dimension(&mut self, key: &Key, dimension: Dimension, span: Span) {
+        let message = format!(
+            "`{}` does not exist in {} dimensions",
+            key.name,
+            dimension.axes()
+        );
+        let twin = schema::keys(key.section)
+            .find(|other| other.kind == key.kind && other.only == Some(dimension));
+        let help = match twin {
+            Some(twin) => format!(
+                "in {} dimensions write `{}`: {}",
+                dimension.axes(),
+                twin.name,
+                twin.meaning
+            ),
+            None => format!("it needs `dimension = {}`", 5 - dimension.axes()),
+        };
+        self.report(ProblemKind::Conflict, message, span, vec![help]);
+    }
+
+    fn value(&mut self, key: &Key, node: &Node) {
+        match (key.kind, &node.value) {
+            (Kind::Text, Value::Text(_)) => {}
+            (Kind::Choice(words), Value::Text(word)) => self.choice(key, words, word, node.span),
+            (Kind::Dimension, Value::Integer(2 | 3)) => {}
+            (Kind::Dimension, Value::Integer(n)) => {
+                let message = format!("`dimension` is {n}");
+                let help = vec!["allowed: 2 or 3".to_owned()];
+                self.report(ProblemKind::OutOfRange, message, node.span, help);
+            }
+            (Kind::Number, Value::Integer(_) | Value::Float(_)) => self.number(key, node),
+            (Kind::Whole, Value::Integer(_)) => self.number(key, node),
+            (Kind::Vector, Value::List(list)) => self.vector(key, list, node.span),
+            (Kind::Rotation, _) => self.rotation(key, node),
+            (Kind::Matrix, Value::List(rows)) => self.matrix(key, rows, node.span),
+            (Kind::Points, Value::List(points)) => self.points(key, points, node.span),
+            (Kind::Table(section), Value::Table(table)) => self.table(table, section),
+            (Kind::Tables(section), Value::List(list)) => {
+                for element in list {
+                    match &element.value {
+                        Value::Table(table) => self.table(table, section),
+                        _ => self.wrong_type(key, element, "a table", Vec::new()),
+                    }
+                }
+            }
+            _ => {
+                let (expected, help) = self.expectation(key, node);
+                self.wrong_type(key, node, &expected, help);
+            }
+        }
+    }
+
+    fn wrong_type(&mut self, key: &Key, node: &Node, expected: &str, help: Vec<String>) {
+        let message = format!(
+            "`{}`: expected {expected}, found {}",
+            key.name,
+            node.value.type_name()
+        );
+        self.report(ProblemKind::WrongType, message, node.span, help);
+    }
+
+    /// What a key wants, and what to tell someone who wrote something else.
+    fn expectation(&self, key: &Key, node: &Node) -> (String, Vec<String>) {
+        let axes = self.dimension.map_or(2, Dimension::axes);
+        match key.kind {
+            Kind::Text => ("a string".to_owned(), Vec::new()),
+            Kind::Choice(words) => (
+                "a word in quotation marks".to_owned(),
+                vec![format!("allowed: {}", quoted(words, "or"))],
+            ),
+            Kind::Dimension => ("2 or 3".to_owned(), Vec::new()),
+            Kind::Whole => (in_unit("a whole number", key), allowed(key)),
+            Kind::Number | Kind::Rotation => (in_unit("a number", key), allowed(key)),
+            Kind::Vector => (
+                in_unit(&format!("{axes} numbers"), key),
+                vec![format!("write `{} = [{}]`", key.name, example(axes))],
+            ),
+            Kind::Matrix => (
+                in_unit(&format!("{axes} rows of {axes} numbers"), key),
+                Vec::new(),
+            ),
+            Kind::Points => (in_unit("a list of points", key), Vec::new()),
+            Kind::Table(inner) => (
+                "a table".to_owned(),
+                match (&node.value, inner) {
+                    (Value::List(_), Section::Fluid | Section::Gravity | Section::Wall | Section::Output) => {
+                        vec![format!("write {} in single brackets", inner.title())]
+                    }
+                    _ => {
+                        let names: Vec<String> = schema::keys(inner)
+                            .filter(|key| key.only.is_none() || key.only == self.dimension)
+                            .map(|key| format!("`{}`", key.name))
+                            .collect();
+                        vec![format!("its keys are {}", listed(&names, "and"))]
+                    }
+                },
+            ),
+            Kind::Tables(Section::Region) => (
+                "an array of tables".to_owned(),
+                vec!["write `[[region]]` in double brackets, once for each region".to_owned()],
+            ),
+            Kind::Tables(_) => (
+                "an array of shapes".to_owned(),
+                vec![format!("write `{} = [{{ … }}, {{ … }}]`", key.name)],
+            ),
+        }
+    }
+
+    fn choice(&mut self, key: &Key, words: &[&str], word: &str, span: Span) {
+        if words.contains(&word) {
+            return;
+        }
+        let mut help = Vec::new();
+        if let Some(meant) = nearest(word, words.iter().copied()) {
+            help.push(format!("did you mean \"{meant}\"?"));
+        }
+        help.push(format!("allowed: {}", quoted(words, "or")));
+        let message = format!("`{}` cannot be \"{word}\"", key.name);
+        self.report(ProblemKind::OutOfRange, message, span, help);
+    }
+
+    /// Checks one number of a key, alone or inside a vector.
+    fn number(&mut self, key: &Key, node: &Node) {
+        let Some(x) = number(node) else {
+            let expected = in_unit("a number", key);
+            return self.wrong_type(key, node, &expected, allowed(key));
+        };
+        if x.is_finite() && key.range.contains(x) {
+            return;
+        }
+        let message = if x.is_finite() {
+            let unit = if key.unit.is_empty() {
+                String::new()
+            } else {
+                format!(" {}", key.unit)
+            };
+            format!("`{}` is out of range: {x:?}{unit}", key.name)
+        } else {
+            format!("`{}` must be a finite number", key.name)
+        };
+        self.report(ProblemKind::OutOfRange, message, node.span, allowed(key));
+    }
+
+    fn vector(&mut self, key: &Key, list: &[Node], span: Span) {
+        if let Some(dimension) = self.dimension
+            && list.len() != dimension.axes()
+        {
+            self.length(key, "numbers", dimension.axes(), list.len(), span);
+        }
+        for element in list {
+            self.number(key, element);
+        }
+    }
+
+    fn length(&mut self, key: &Key, what: &str, expected: usize, found: usize, span: Span) {
+        let message = format!("`{}`: expected {expected} {what}, found {found}", key.name);
+        let help = vec![format!("the scene has `dimension = {expected}`")];
+        self.report(ProblemKind::WrongType, message, span, help);
+    }
+
+    fn rotation(&mut self, key: &Key, node: &Node) {
+        match (self.dimension, &node.value) {
+            (Some(Dimension::Three) | None, Value::List(list)) => {
+                self.vector(key, list, node.span);
+            }
+            (Some(Dimension::Three), _) => {
+                let expected = in_unit("3 numbers", key);
+                let help = vec![format!(
+                    "write the axis and the speed: `{} = [0.0, 0.0, 1.0]`",
+                    key.name
+                )];
+                self.wrong_type(key, node, &expected, help);
+            }
+            _ => self.number(key, node),
+        }
+    }
+
+    fn matrix(&mut self, key: &Key, rows: &[Node], span: Span) {
+        if let Some(dimension) = self.dimension
+            && rows.len() != dimension.axes()
+        {
+            self.length(key, "rows", dimension.axes(), rows.len(), span);
+        }
+        for row in rows {
+            match &row.value {
+                Value::List(numbers) => self.vector(key, numbers, row.span),
+                _ => self.wrong_type(key, row, "a row of numbers", Vec::new()),
+            }
+        }
+    }
+
+    fn points(&mut self, key: &Key, points: &[Node], span: Span) {
+        if points.len() < 3 {
+            let message = format!(
+                "`{}`: expected at least 3 points, found {}",
+                key.name,
+                points.len()
+            );
+            self.report(ProblemKind::WrongType, message, span, Vec::new());
+        }
+        for point in points {
+            match &point.value {
+                Value::List(numbers) => self.vector(key, numbers, point.span),
+                _ => self.wrong_type(key, point, "a point [x, y]", Vec::new()),
+            }
+        }
+    }
+}
+
+fn in_unit(what: &str, key: &Key) -> String {
+    if key.unit.is_empty() {
+        what.to_owned()
+    } else {
+        format!("{what} in {}", key.unit)
+    }
+}
+
+fn example(axes: usize) -> &'static str {
+    if axes == 2 {
+        "0.0, 1.0"
+    } else {
+        "0.0, 1.0, 0.0"
+    }
+}
+
+/// The range and unit of a key, as help.
+fn allowed(key: &Key) -> Vec<String> {
+    let range = match key.range {
+        Range::Any => in_unit("any finite number", key),
+        range if key.unit.is_empty() => range.to_string(),
+        range => format!("{range} {}", key.unit),
+    };
+    vec![format!("allowed: {range}")]
+}

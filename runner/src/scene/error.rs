@@ -1,0 +1,289 @@
+//! Errors of a scene, each printed whole: what is wrong, where it stands, what would be right.
+
+use std::error::Error;
+use std::fmt;
+use std::io;
+
+use super::catalogue::catalogue;
+use super::schema::listed;
+
+/// Why there is no scene, or no initial state of a scene.
+///
+/// `Display` gives the complete message for a terminal; it begins with `error: `.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The text or an override is wrong; every mistake found is listed.
+    #[error("{0}")]
+    Invalid(Problems),
+    /// A name that is neither a scene of the catalogue nor a path.
+    #[error("error: no scene is called `{name}`{}", scene_help(*.nearest))]
+    UnknownScene {
+        /// The name asked for.
+        name: String,
+        /// The catalogue's name most like it.
+        nearest: Option<&'static str>,
+    },
+    /// There is no such file.
+    #[error(
+        "error: the scene file `{path}` does not exist\nhelp: `loschmidt scenes` lists the scenes that need no file"
+    )]
+    NotFound {
+        /// The path as it was given.
+        path: String,
+    },
+    /// The path names a folder.
+    #[error("error: `{path}` is a folder, not a scene file")]
+    Directory {
+        /// The path as it was given.
+        path: String,
+    },
+    /// The system refused to read the file.
+    #[error("error: the scene file `{path}` cannot be read: {reason}")]
+    Unreadable {
+        /// The path as it was given.
+        path: String,
+        /// What the system said.
+        #[source]
+        reason: io::Error,
+    },
+    /// The file is not text.
+    #[error(
+        "error: the scene file `{path}` is not UTF-8 text: line {line} holds other bytes\nhelp: save it as UTF-8"
+    )]
+    NotUtf8 {
+        /// The path as it was given.
+        path: String,
+        /// The first line that is not UTF-8, counted from 1.
+        line: usize,
+    },
+    /// The regions hold no fluid particle.
+    #[error(
+        "error: scene `{scene}` has no fluid particle at a particle spacing of {particle_spacing:?} m\nhelp: a fluid region must hold at least one node of its lattice, the first of which lies half a spacing inside its lower corner"
+    )]
+    NoFluid {
+        /// Name of the scene.
+        scene: String,
+        /// Particle spacing, m.
+        particle_spacing: f64,
+    },
+    /// Two particles start on one point.
+    #[error("error: two particles of scene `{scene}` lie on one point, ({})\n  region {}: {}\n  region {}: {}\nhelp: regions may touch but not overlap: subtract one shape from the other with `difference`", coordinates(.point), .first.0, .first.1, .second.0, .second.1)]
+    Coincident {
+        /// Name of the scene.
+        scene: String,
+        /// Number of the first region in file order, from 0, and its description.
+        first: (usize, String),
+        /// Number of the second region and its description.
+        second: (usize, String),
+        /// The shared point, m; as many coordinates as dimensions.
+        point: Vec<f64>,
+    },
+    /// More particles than 32-bit indices can hold.
+    #[error(
+        "error: scene `{scene}` would have about {particles} particles; at most {limit} are possible\nhelp: raise `particle_spacing`, which is {particle_spacing:?} m"
+    )]
+    TooManyParticles {
+        /// Name of the scene.
+        scene: String,
+        /// Estimated number of particles, fluid and wall.
+        particles: u64,
+        /// The most that is allowed.
+        limit: u64,
+        /// Particle spacing, m.
+        particle_spacing: f64,
+    },
+    /// So far from the origin that neighbouring lattice nodes round to one number.
+    #[error(
+        "error: region {region} of scene `{scene}` reaches {reach:?} m from the origin, too far for a particle spacing of {particle_spacing:?} m: rounding would bend its lattice\nhelp: move the scene towards the origin or raise `particle_spacing`"
+    )]
+    TooFar {
+        /// Name of the scene.
+        scene: String,
+        /// Number of the region in file order, from 0.
+        region: usize,
+        /// Largest coordinate, m.
+        reach: f64,
+        /// Particle spacing, m.
+        particle_spacing: f64,
+    },
+}
+
+fn scene_help(nearest: Option<&str>) -> String {
+    let names: Vec<String> = catalogue()
+        .iter()
+        .map(|entry| format!("`{}`", entry.name))
+        .collect();
+    let suggestion = nearest.map_or(String::new(), |name| {
+        format!("\nhelp: did you mean `{name}`?")
+    });
+    format!(
+        "{suggestion}\nhelp: the scenes are {}; a file is given by its path",
+        listed(&names, "and")
+    )
+}
+
+fn coordinates(point: &[f64]) -> String {
+    let numbers: Vec<String> = point.iter().map(|x| format!("{x:?}")).collect();
+    numbers.join(", ")
+}
+
+/// What sort of mistake a [`Problem`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum ProblemKind {
+    /// The text is not TOML.
+    Syntax,
+    /// A key that does not exist.
+    UnknownKey,
+    /// A value of the wrong type or length.
+    WrongType,
+    /// A value of the right type that is not allowed.
+    OutOfRange,
+    /// A key that must be given is not.
+    MissingKey,
+    /// Values that exclude each other.
+    Conflict,
+    /// An override that names no place in the scene.
+    Override,
+}
+
+/// One mistake in the text of a scene or in an override.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// What sort of mistake it is.
+    pub kind: ProblemKind,
+    /// What is wrong, in one line.
+    pub message: String,
+    /// Where it stands.
+    pub place: Place,
+    /// What would be right: ranges, units, names.
+    pub help: Vec<String>,
+}
+
+/// A place in a text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file's path, `--set` for an override.
+    pub file: String,
+    /// The line and the characters on it; `None` stands for the whole file.
+    pub line: Option<Line>,
+    /// Order of the place among all texts, by which messages are sorted.
+    pub(super) order: (usize, usize),
+}
+
+/// The part of a line that a message points at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Line {
+    /// Number of the line from 1; `None` in an override, which has only one.
+    pub number: Option<usize>,
+    /// Column of the first character from 1, in characters.
+    pub column: usize,
+    /// Number of characters pointed at, at least 1.
+    pub width: usize,
+    /// The whole line.
+    pub text: String,
+}
+
+impl Line {
+    /// The line and column of `start..end` in `text`; a span over several lines is cut
+    /// at the end of its first.
+    pub(super) fn locate(text: &str, start: usize, end: usize, numbered: bool) -> Self {
+        let start = floor_to_character(text, start);
+        let end = floor_to_character(text, end).max(start);
+        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        let line_end = text[start..]
+            .find('\n')
+            .map_or(text.len(), |newline| start + newline);
+        let pointed = &text[start..end.min(line_end)];
+        Self {
+            number: numbered.then(|| 1 + text[..start].matches('\n').count()),
+            column: 1 + text[line_start..start].chars().count(),
+            width: pointed.trim_end().chars().count().max(1),
+            text: text[line_start..line_end].trim_end().to_owned(),
+        }
+    }
+}
+
+/// The last character boundary at or before `index`.
+fn floor_to_character(text: &str, index: usize) -> usize {
+    (0..=index.min(text.len()))
+        .rev()
+        .find(|&i| text.is_char_boundary(i))
+        .unwrap_or(0)
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(line) = &self.line else {
+            return write!(f, " --> {}", self.file);
+        };
+        let number = line.number.map_or(" ".to_owned(), |n| n.to_string());
+        let gutter = " ".repeat(number.len());
+        match line.number {
+            Some(n) => writeln!(f, "{gutter}--> {}:{n}:{}", self.file, line.column)?,
+            None => writeln!(f, "{gutter}--> {}", self.file)?,
+        }
+        // A tab stays a tab under the line, so that the caret stands below its character.
+        let padding: String = line
+            .text
+            .chars()
+            .chain(std::iter::repeat(' '))
+            .take(line.column - 1)
+            .map(|c| if c == '\t' { '\t' } else { ' ' })
+            .collect();
+        writeln!(f, "{gutter} |")?;
+        writeln!(f, "{number} | {}", line.text)?;
+        write!(f, "{gutter} | {padding}{}", "^".repeat(line.width))
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "error: {}\n{}", self.message, self.place)?;
+        for help in &self.help {
+            write!(f, "\nhelp: {help}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The mistakes of one scene in the order of their places; there is at least one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problems(Vec<Problem>);
+
+impl Problems {
+    /// Sorts the mistakes by place.
+    pub(super) fn new(mut problems: Vec<Problem>) -> Self {
+        problems.sort_by_key(|problem| problem.place.order);
+        Self(problems)
+    }
+
+    /// The mistakes in the order of their places.
+    pub fn iter(&self) -> std::slice::Iter<'_, Problem> {
+        self.0.iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a Problems {
+    type Item = &'a Problem;
+    type IntoIter = std::slice::Iter<'a, Problem>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, problem) in self.0.iter().enumerate() {
+            if index > 0 {
+                write!(f, "\n\n")?;
+            }
+            write!(f, "{problem}")?;
+        }
+        Ok(())
+    }
+}
+
+impl Error for Problems {}

@@ -1,0 +1,313 @@
+//! From a scene to its particles: lattice nodes inside the regions, with first velocities.
+//!
+//! Every fluid region has its own lattice, which starts half a pitch inside the lower
+//! corner of the region's bounds. Walls continue the lattice of the first fluid region.
+//! Particles are ordered region after region in file order, and in a region x fastest,
+//! then y, then z; that order gives the particles their ids.
+
+use super::error::SceneError;
+use super::lattice::Lattice;
+use super::shape::{Bounds, Point, Shape, overlap};
+use super::types::{Dimension, LatticeKind, Region, RegionKind, Scene, WallModel};
+
+/// The particles at time zero; z is 0 in two dimensions.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InitialState {
+    /// Positions of the fluid particles in the order of their ids, m.
+    pub fluid: Vec<Point>,
+    /// Velocities of the fluid particles, m/s; as many as there are positions.
+    pub fluid_velocity: Vec<Point>,
+    /// Positions of the wall particles, m.
+    pub wall: Vec<Point>,
+}
+
+/// The most particles of a scene: their numbers fit into 32 bits with one to spare.
+const MOST_PARTICLES: u64 = 1 << 31;
+
+/// The most nodes an estimate visits in one region.
+const MOST_SAMPLES: f64 = (1_u64 << 20) as f64;
+
+/// The most nodes of a region's bounds: a shape that fills less than a quarter of its
+/// bounds is not searched for long in vain.
+const MOST_NODES: f64 = (1_u64 << 33) as f64;
+
+/// Particles nearer than this, in spacings, lie on one point: their coordinates differ
+/// only by the rounding of two lattices.
+const COINCIDENCE: f64 = 1e-6;
+
+/// Largest coordinate over spacing at which the nodes of a lattice are told apart to the
+/// tolerance of the faces.
+const FARTHEST: f64 = 1e6;
+
+impl Scene {
+    /// The number of fluid and of wall particles, without making them.
+    ///
+    /// Exact for regions whose bounds hold at most 2^20 nodes. A larger region is counted
+    /// on a lattice k times coarser, and the count is multiplied by k^D, or by k^(D-1) for
+    /// a layer; it then deviates by a few nodes in each row of the coarse lattice.
+    #[must_use]
+    pub fn estimated_particles(&self) -> (u64, u64) {
+        let mut counts = (0_u64, 0_u64);
+        let Some(first) = self.first_lattice() else {
+            return counts;
+        };
+        for region in self.filled_regions().map(|(_, region)| region) {
+            match region.kind {
+                RegionKind::Fluid => {
+                    let lattice = self.own_lattice(region).unwrap_or(first);
+                    counts.0 = counts.0.saturating_add(estimate(lattice, &region.shape));
+                }
+                RegionKind::Wall => {
+                    counts.1 = counts.1.saturating_add(estimate(first, &region.shape));
+                }
+            }
+        }
+        counts
+    }
+
+    /// Places the particles.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::NoFluid`], [`SceneError::TooManyParticles`],
+    /// [`SceneError::TooFar`], and [`SceneError::Coincident`] when particles of two
+    /// regions lie on one point.
+    pub fn initial_state(&self) -> Result<InitialState, SceneError> {
+        let no_fluid = || SceneError::NoFluid {
+            scene: self.name.clone(),
+            particle_spacing: self.particle_spacing,
+        };
+        let first = self.first_lattice().ok_or_else(no_fluid)?;
+        let (fluid, wall) = self.estimated_particles();
+        self.refuse_above(fluid.saturating_add(wall), MOST_PARTICLES)?;
+
+        let mut state = InitialState::default();
+        let mut placed = Vec::new();
+        for (number, region) in self.filled_regions() {
+            let lattice = match region.kind {
+                RegionKind::Fluid => self.own_lattice(region).unwrap_or(first),
+                RegionKind::Wall => first,
+            };
+            self.check_reach(number, lattice, &region.shape)?;
+            let points = match region.kind {
+                RegionKind::Fluid => &mut state.fluid,
+                RegionKind::Wall => &mut state.wall,
+            };
+            let before = points.len();
+            lattice.visit(&region.shape, |point| points.push(point));
+            if region.kind == RegionKind::Fluid {
+                let velocity = |&point: &Point| {
+                    region
+                        .velocity
+                        .map_or([0.0; 3], |velocity| velocity.at(point))
+                };
+                state
+                    .fluid_velocity
+                    .extend(state.fluid[before..].iter().map(velocity));
+            }
+            placed.push((number, region.kind, before));
+        }
+        if state.fluid.is_empty() {
+            return Err(no_fluid());
+        }
+        self.refuse_coincidence(&state, &placed)?;
+        Ok(state)
+    }
+
+    /// The regions that hold particles, with their numbers in file order.
+    fn filled_regions(&self) -> impl Iterator<Item = (usize, &Region)> {
+        let walls = self.wall_model != WallModel::None;
+        self.regions
+            .iter()
+            .enumerate()
+            .filter(move |(_, region)| walls || region.kind == RegionKind::Fluid)
+    }
+
+    fn own_lattice(&self, region: &Region) -> Option<Lattice> {
+        Some(Lattice {
+            kind: region
+                .lattice
+                .filter(|kind| kind.fits(self.dimension))
+                .unwrap_or(LatticeKind::natural(self.dimension)),
+            origin: region.shape.corner()?,
+            spacing: self.particle_spacing,
+        })
+    }
+
+    /// The lattice of the first fluid region, which walls continue.
+    fn first_lattice(&self) -> Option<Lattice> {
+        self.regions
+            .iter()
+            .find(|region| region.kind == RegionKind::Fluid)
+            .and_then(|region| self.own_lattice(region))
+    }
+
+    fn refuse_above(&self, particles: u64, limit: u64) -> Result<(), SceneError> {
+        if particles <= limit {
+            return Ok(());
+        }
+        Err(SceneError::TooManyParticles {
+            scene: self.name.clone(),
+            particles,
+            limit,
+            particle_spacing: self.particle_spacing,
+        })
+    }
+
+    fn check_reach(
+        &self,
+        region: usize,
+        lattice: Lattice,
+        shape: &Shape,
+    ) -> Result<(), SceneError> {
+        let Some(bounds) = shape.bounds(lattice.spacing) else {
+            return Ok(());
+        };
+        let reach = (0..self.dimension.axes())
+            .flat_map(|k| [bounds.0[k], bounds.1[k], lattice.origin[k]])
+            .fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        if reach > FARTHEST * lattice.spacing {
+            return Err(SceneError::TooFar {
+                scene: self.name.clone(),
+                region,
+                reach,
+                particle_spacing: self.particle_spacing,
+            });
+        }
+        let nodes = lattice.nodes_within(bounds);
+        if nodes > MOST_NODES {
+            return self.refuse_above(nodes as u64, MOST_PARTICLES);
+        }
+        Ok(())
+    }
+
+    /// Compares the particles of every two regions where their bounds overlap.
+    ///
+    /// Two regions that do not interlock cost nothing beyond their bounds.
+    fn refuse_coincidence(
+        &self,
+        state: &InitialState,
+        placed: &[(usize, RegionKind, usize)],
+    ) -> Result<(), SceneError> {
+        let mut groups: Vec<(usize, &[Point])> = Vec::new();
+        for (position, &(number, kind, start)) in placed.iter().enumerate() {
+            let all = match kind {
+                RegionKind::Fluid => &state.fluid,
+                RegionKind::Wall => &state.wall,
+            };
+            let end = placed[position + 1..]
+                .iter()
+                .find(|next| next.1 == kind)
+                .map_or(all.len(), |next| next.2);
+            groups.push((number, &all[start..end]));
+        }
+        let axes = self.dimension.axes();
+        for (position, &(first, points)) in groups.iter().enumerate() {
+            for &(second, others) in &groups[position + 1..] {
+                if let Some(point) = coincidence(points, others, self.particle_spacing, axes) {
+                    return Err(SceneError::Coincident {
+                        scene: self.name.clone(),
+                        first: (first, describe(&self.regions[first], self.dimension)),
+                        second: (second, describe(&self.regions[second], self.dimension)),
+                        point: point[..axes].to_vec(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A region in a few words, such as "fluid, a circle".
+fn describe(region: &Region, dimension: Dimension) -> String {
+    format!(
+        "{}, shape `{}`",
+        region.kind.word(),
+        region.shape.word(dimension)
+    )
+}
+
+/// Counts the nodes of a shape on a lattice coarse enough to be counted quickly.
+fn estimate(lattice: Lattice, shape: &Shape) -> u64 {
+    let Some(bounds) = shape.bounds(lattice.spacing) else {
+        return 0;
+    };
+    let axes = lattice.dimension().axes();
+    let nodes = lattice.nodes_within(bounds);
+    let mut coarser = 1_u64;
+    let mut coarse = lattice;
+    // Doubling avoids a cube root, and a scene of absurd size ends the loop as well.
+    while coarser < 1 << 40 && coarse.nodes_within(bounds) > MOST_SAMPLES {
+        coarser *= 2;
+        coarse.spacing = lattice.spacing * coarser as f64;
+    }
+    if coarse.nodes_within(bounds) > MOST_SAMPLES {
+        return nodes as u64;
+    }
+    let mut count = 0_u64;
+    coarse.visit(shape, |_| count += 1);
+    let power = if shape.is_thin() { axes - 1 } else { axes };
+    (0..power).fold(count, |count, _| count.saturating_mul(coarser))
+}
+
+/// A point that two sets share up to rounding.
+///
+/// Space is cut into cubes of twice the tolerance; two points nearer than the tolerance
+/// along every axis share a cube in at least one of the 2^D cuts that are shifted by half
+/// a cube along some axes.
+fn coincidence(a: &[Point], b: &[Point], spacing: f64, axes: usize) -> Option<Point> {
+    let common = overlap(grown(bounds(a)?, spacing), grown(bounds(b)?, spacing))?;
+    let inside = |points: &[Point]| -> Vec<Point> {
+        points
+            .iter()
+            .filter(|p| (0..axes).all(|k| common.0[k] <= p[k] && p[k] <= common.1[k]))
+            .copied()
+            .collect()
+    };
+    let (a, b) = (inside(a), inside(b));
+    if a.is_empty() || b.is_empty() {
+        return None;
+    }
+    let cube = 2.0 * COINCIDENCE * spacing;
+    let mut found: Option<Point> = None;
+    for cut in 0..1_u32 << axes {
+        let cell = |point: &Point| -> [i64; 3] {
+            std::array::from_fn(|k| {
+                let shift = if cut >> k & 1 == 1 { 0.5 } else { 0.0 };
+                ((point[k] - common.0[k]) / cube + shift).floor() as i64
+            })
+        };
+        let mut cells: Vec<[i64; 3]> = b.iter().map(cell).collect();
+        cells.sort_unstable();
+        // The first in the order of the ids, whichever cut finds it.
+        let hit = a
+            .iter()
+            .find(|point| cells.binary_search(&cell(point)).is_ok());
+        if let Some(point) = hit {
+            let earlier = found.is_none_or(|old| {
+                let place = |p: &Point| a.iter().position(|q| q == p);
+                place(point) < place(&old)
+            });
+            if earlier {
+                found = Some(*point);
+            }
+        }
+    }
+    found
+}
+
+fn bounds(points: &[Point]) -> Option<Bounds> {
+    points.iter().map(|&point| (point, point)).reduce(|a, b| {
+        (
+            std::array::from_fn(|k| a.0[k].min(b.0[k])),
+            std::array::from_fn(|k| a.1[k].max(b.1[k])),
+        )
+    })
+}
+
+fn grown((min, max): Bounds, by: f64) -> Bounds {
+    (
+        min.map(|x| x - by * COINCIDENCE),
+        max.map(|x| x + by * COINCIDENCE),
+    )
+}

@@ -1,0 +1,83 @@
+//! The scene language: from a TOML text to the first positions and velocities.
+//!
+//! ```text
+//! Source --read--> text --parse, --set--> spec (what was written, with places)
+//!        --check, build--> Scene (validated, SI) --initial_state--> InitialState (f64)
+//! ```
+//!
+//! The keys, their units, ranges, defaults and meanings are one table, `schema::KEYS`;
+//! [`Scene::to_toml`] prints a scene with all of them as comments. Every mistake of a
+//! text is reported, each with file, line, caret and help, in one [`SceneError`].
+//!
+//! The initial state is the same bit for bit on every machine: node coordinates,
+//! membership in shapes and velocities use `+ - * /` and comparisons alone, and every
+//! coordinate comes from an integer index (see [`Scene::initial_state`]).
+//!
+//! ```
+//! use loschmidt_runner::scene::{load, Source};
+//!
+//! let text = r#"
+//!     particle_spacing = 0.1
+//!     turnaround = 0.5
+//!     fluid.sound_speed = 40
+//!     gravity.uniform = [0, -9.8]
+//!     [[region]]
+//!     kind = "fluid"
+//!     shape.rectangle = { min = [0, 0], max = [1, 2] }
+//! "#;
+//! let source = Source::Text { name: "column.toml".into(), text: text.into() };
+//! let scene = load(&source, &["particle_spacing=0.05".into()])?;
+//! assert_eq!(scene.initial_state()?.fluid.len(), 800);
+//! # Ok::<(), loschmidt_runner::scene::SceneError>(())
+//! ```
+
+mod build;
+mod catalogue;
+mod check;
+mod error;
+mod initial;
+mod lattice;
+mod nearest;
+mod overrides;
+mod print;
+mod regions;
+mod schema;
+mod shape;
+mod source;
+mod spec;
+mod types;
+mod words;
+
+pub use catalogue::{CatalogueEntry, catalogue};
+pub use error::{Line, Place, Problem, ProblemKind, Problems, SceneError};
+pub use initial::InitialState;
+pub use shape::{Point, Shape};
+pub use source::{Source, resolve};
+pub use types::{
+    CentralGravity, DensityCorrection, Dimension, EquationOfState, Fluid, Gravity, Integrator,
+    LatticeKind, Model, Output, Region, RegionKind, Scene, StepRule, Velocity, WallModel, WallPotential,
+};
+
+/// Reads a scene, merges the overrides `path=value` into it in their order, and validates
+/// the result.
+///
+/// # Errors
+///
+/// [`SceneError::Invalid`] with every mistake of the text and of the overrides (a syntax
+/// error stands alone); [`SceneError::UnknownScene`], [`SceneError::NotFound`],
+/// [`SceneError::Directory`], [`SceneError::Unreadable`] or [`SceneError::NotUtf8`] when
+/// there is no text to read.
+pub fn load(source: &Source, overrides: &[String]) -> Result<Scene, SceneError> {
+    let mut spec = spec::SceneSpec::parse(source.read()?)?;
+    let mut problems = Vec::new();
+    for text in overrides {
+        if let Err(problem) = overrides::apply(&mut spec, text) {
+            problems.push(*problem);
+        }
+    }
+    if problems.is_empty() {
+        build::build(&spec)
+    } else {
+        Err(SceneError::Invalid(Problems::new(problems)))
+    }
+}

@@ -1,0 +1,297 @@
+//! The regions of a scene: shapes, lattices and first velocities.
+
+use super::build::{Builder, Here, as_table, elements, numbers};
+use super::check::number;
+use super::schema::{self, Section, listed};
+use super::shape::Shape;
+use super::spec::{Entry, Value};
+use super::types::{Dimension, LatticeKind, Region, RegionKind, Velocity};
+
+/// The axes by name, for messages.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Reads every region.
+pub(super) fn regions<'a>(builder: &mut Builder<'a>, top: Here<'a>) -> Vec<Region> {
+    let Some(entry) = builder.entry(top, "region") else {
+        return Vec::new();
+    };
+    let mut regions = Vec::new();
+    for node in elements(&entry.node) {
+        if let Some(table) = as_table(node) {
+            let here = Here {
+                table,
+                span: Some(node.span),
+                section: Section::Region,
+                name: &entry.name,
+            };
+            regions.push(region(builder, here));
+        }
+    }
+    let fluid = regions
+        .iter()
+        .any(|region| region.kind == RegionKind::Fluid);
+    // A region of unknown kind counts as fluid: its kind is reported already.
+    if !fluid && matches!(entry.node.value, Value::List(_)) {
+        builder.missing(
+            top,
+            "no region is fluid".to_owned(),
+            vec!["give at least one `[[region]]` the key `kind = \"fluid\"`".to_owned()],
+        );
+    }
+    regions
+}
+
+fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
+    // A refused kind stands for fluid, about which no rule complains.
+    let kind = builder.word(here, "kind").unwrap_or(RegionKind::Fluid);
+    if kind == RegionKind::Wall {
+        let rules = [
+            (
+                "lattice",
+                "a wall continues the lattice of the first fluid region: remove it",
+            ),
+            ("velocity", "walls are at rest: remove it"),
+        ];
+        for (name, help) in rules {
+            if let Some(entry) = here.table.get(name) {
+                let message = format!("a wall region has no `{name}`");
+                builder.conflict(message, entry.key, help.to_owned());
+            }
+        }
+    }
+    let lattice = lattice(builder, here);
+    let velocity = builder
+        .inner(here, "velocity", Section::Velocity)
+        .and_then(|inner| velocity(builder, inner));
+    let shape = builder
+        .inner(here, "shape", Section::Shape)
+        .map_or(nothing(), |inner| shape(builder, inner));
+    Region {
+        kind,
+        shape,
+        lattice: (kind == RegionKind::Fluid).then_some(lattice),
+        velocity,
+    }
+}
+
+/// What stands for a shape that was refused.
+fn nothing() -> Shape {
+    Shape::Union(Vec::new())
+}
+
+fn lattice<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> LatticeKind {
+    let natural = LatticeKind::natural(builder.dimension);
+    let Some(entry) = here.table.get("lattice") else {
+        return natural;
+    };
+    let lattice = builder.word(here, "lattice").unwrap_or(natural);
+    if !lattice.fits(builder.dimension) {
+        let axes = builder.dimension.axes();
+        let message = format!(
+            "a {} lattice does not exist in {axes} dimensions",
+            lattice.word()
+        );
+        let allowed = match builder.dimension {
+            Dimension::Two => "allowed in 2 dimensions: \"square\" or \"hexagonal\"",
+            Dimension::Three => "allowed in 3 dimensions: \"cubic\"",
+        };
+        builder.conflict(message, entry.node.span, allowed.to_owned());
+    }
+    lattice
+}
+
+/// Of the keys that exclude each other, the one that is given.
+fn only_one<'a>(
+    builder: &mut Builder<'a>,
+    here: Here<'a>,
+    what: &str,
+    exclusive: impl Fn(&str) -> bool,
+) -> Option<&'a Entry> {
+    let mut given = here
+        .table
+        .entries
+        .iter()
+        .filter(|entry| exclusive(&entry.name));
+    let first = given.next();
+    if let (Some(first), Some(second)) = (first, given.next()) {
+        builder.conflict(
+            format!(
+                "{what} is given twice: as `{}` and as `{}`",
+                first.name, second.name
+            ),
+            second.key,
+            "keep one of them".to_owned(),
+        );
+    }
+    // An unknown key is reported already, and was most likely meant to be the missing one.
+    if first.is_none()
+        && here
+            .table
+            .entries
+            .iter()
+            .all(|e| schema::find(here.section, &e.name).is_some())
+    {
+        let names: Vec<String> = schema::keys(here.section)
+            .filter(|key| exclusive(key.name) && key.only.is_none_or(|d| d == builder.dimension))
+            .map(|key| format!("`{}`", key.name))
+            .collect();
+        let help = format!("one of {}", listed(&names, "or"));
+        builder.missing(here, format!("{what} is empty"), vec![help]);
+    }
+    first
+}
+
+fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
+    let fields = ["uniform", "rotation", "linear"];
+    let entry = only_one(builder, here, "the velocity", |name| fields.contains(&name))?;
+    for (name, owner) in [("centre", "rotation"), ("offset", "linear")] {
+        if let Some(stray) = here.table.get(name)
+            && entry.name != owner
+        {
+            builder.conflict(
+                format!("`{name}` goes with `{owner}`, not with `{}`", entry.name),
+                stray.key,
+                "remove it".to_owned(),
+            );
+        }
+    }
+    Some(match entry.name.as_str() {
+        "uniform" => Velocity::Uniform(numbers(&entry.node)),
+        "rotation" => Velocity::Rotation {
+            omega: match (builder.dimension, number(&entry.node)) {
+                (Dimension::Two, Some(omega)) => [0.0, 0.0, omega],
+                _ => numbers(&entry.node),
+            },
+            centre: builder.vector(here, "centre"),
+        },
+        _ => {
+            let rows = elements(&entry.node);
+            Velocity::Linear {
+                matrix: std::array::from_fn(|i| rows.get(i).map_or([0.0; 3], numbers)),
+                offset: builder.vector(here, "offset"),
+            }
+        }
+    })
+}
+
+/// Reads the shape in a table that holds exactly one.
+fn shape<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {
+    let known = |name: &str| schema::find(Section::Shape, name).is_some();
+    let Some(entry) = only_one(builder, here, "the shape", known) else {
+        return nothing();
+    };
+    match entry.name.as_str() {
+        "union" => Shape::Union(shapes(builder, entry)),
+        "difference" => Shape::Difference(shapes(builder, entry)),
+        "intersection" => Shape::Intersection(shapes(builder, entry)),
+        name => primitive(builder, here, name).unwrap_or(nothing()),
+    }
+}
+
+fn shapes<'a>(builder: &mut Builder<'a>, entry: &'a Entry) -> Vec<Shape> {
+    let list = elements(&entry.node);
+    if list.is_empty() && matches!(entry.node.value, Value::List(_)) {
+        let help = format!("write `{} = [{{ … }}, {{ … }}]`", entry.name);
+        builder.out_of_range(
+            format!("`{}` holds no shape", entry.name),
+            entry.node.span,
+            help,
+        );
+    }
+    let mut shapes = Vec::new();
+    for node in list {
+        if let Some(table) = as_table(node) {
+            let here = Here {
+                table,
+                span: Some(node.span),
+                section: Section::Shape,
+                name: &entry.name,
+            };
+            shapes.push(shape(builder, here));
+        }
+    }
+    shapes
+}
+
+/// A shape that is described by numbers, or a layer.
+fn primitive<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &str) -> Option<Shape> {
+    let section = match name {
+        "rectangle" | "box" => Section::Block,
+        "circle" | "sphere" => Section::Ball,
+        "ellipse" | "ellipsoid" => Section::Ellipsoid,
+        "annulus" | "shell" => Section::Shell,
+        "polygon" => Section::Polygon,
+        _ => Section::Layer,
+    };
+    let inner = builder.inner(here, name, section)?;
+    Some(match section {
+        Section::Block => block(builder, inner),
+        Section::Ball => Shape::Ball {
+            centre: builder.vector(inner, "centre"),
+            radius: builder.number(inner, "radius"),
+        },
+        Section::Ellipsoid => Shape::Ellipsoid {
+            centre: builder.vector(inner, "centre"),
+            axes: builder.vector(inner, "axes"),
+        },
+        Section::Shell => hollow(builder, inner),
+        Section::Polygon => Shape::Polygon {
+            points: builder
+                .entry(inner, "points")
+                .map_or(&[][..], |entry| elements(&entry.node))
+                .iter()
+                .map(|point| {
+                    let [x, y, _] = numbers(point);
+                    [x, y]
+                })
+                .collect(),
+        },
+        _ => {
+            let around = builder
+                .inner(inner, "around", Section::Shape)
+                .map_or(nothing(), |inner| shape(builder, inner));
+            Shape::Layer {
+                around: Box::new(around),
+                depth: builder.number(inner, "depth"),
+            }
+        }
+    })
+}
+
+fn block<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {
+    let min = builder.vector(here, "min");
+    let max = builder.vector(here, "max");
+    if let (Some(_), Some(entry)) = (here.table.get("min"), here.table.get("max")) {
+        let list = elements(&entry.node);
+        for k in 0..builder.dimension.axes().min(list.len()) {
+            if max[k] <= min[k] {
+                builder.out_of_range(
+                    format!("`max` is not above `min` along {}: {:?} m", AXES[k], max[k]),
+                    list[k].span,
+                    format!("allowed: greater than {} m, where `min` is", min[k]),
+                );
+            }
+        }
+    }
+    Shape::Block { min, max }
+}
+
+fn hollow<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {
+    let inner = builder.number(here, "inner");
+    let outer = builder.number(here, "outer");
+    if let Some(entry) = here.table.get("outer")
+        && outer <= inner
+        && outer > 0.0
+    {
+        builder.out_of_range(
+            format!("`outer` is not above `inner`: {outer:?} m"),
+            entry.node.span,
+            format!("allowed: greater than {inner} m, where `inner` is"),
+        );
+    }
+    Shape::Shell {
+        centre: builder.vector(here, "centre"),
+        inner,
+        outer,
+    }
+}
