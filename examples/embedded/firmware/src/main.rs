@@ -11,10 +11,19 @@ use core::panic::PanicInfo;
 use cortex_m_rt::{ExceptionFrame, entry, exception};
 use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use cortex_m_semihosting::hio;
+use loschmidt_embedded_scene::Dam;
+
+/// The system passes over the stack on its way to its place, in a copy or two: the rest of the
+/// board's 4 MiB, which is the stack, must hold several.
+const _: () = assert!(size_of::<Option<Dam>>() < 256 * 1024);
 
 #[entry]
 fn main() -> ! {
-    match loschmidt_embedded_scene::run() {
+    // `entry` runs once and hands this out as a `&'static mut`: the system has its place at link
+    // time, and the stack only passes it there.
+    static mut DAM: Option<Dam> = None;
+
+    match loschmidt_embedded_scene::run_in(DAM) {
         Ok(outcome) => leave(print(format_args!("{outcome}")) && outcome.reversed_exactly()),
         Err(error) => fail(format_args!("error: {error}")),
     }

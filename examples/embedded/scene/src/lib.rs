@@ -1,216 +1,225 @@
-//! The run that the firmware and its host twin both make.
+//! The run that the firmware and its host twins all make: a small dam break, there and back.
 //!
-//! A few hundred particles make [`STEPS`] steps, time is reversed, they make [`STEPS`] steps
-//! more and time is reversed again. [`run`] returns what is needed to judge it: the digest of
-//! the state at the start, at the turnaround and at the end. Its [`Display`](fmt::Display) form
-//! is what both programs print, so comparing the machines is comparing text.
+//! A column of water, 1 m wide and 2 m high, stands at the left wall of an open box and falls for
+//! [`STEPS`] steps; time is reversed, it makes [`STEPS`] steps more, and time is reversed again.
+//! [`run`] returns what is needed to judge it: the digest of the state at the start, at the
+//! turnaround and at the end. The [`Display`](fmt::Display) form of the [`Outcome`] is what every
+//! program prints, so comparing the machines is comparing text.
 //!
-//! The seam is [`run`] and [`Outcome`] alone. Neither program knows which particles they are or
-//! what moves them.
+//! The parameters are those of Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, Table 1,
+//! but for the spacing dr (12 particles across the column instead of 200) and the speed of sound
+//! (10 sqrt(2 g H) instead of 19 sqrt(2 g H)): with few particles and large steps, a processor
+//! without an f64 unit gets somewhere in its minute.
 //!
-//! What moves them today is a stand-in for the dam break: anharmonic oscillators, each bound to
-//! its own centre by the force f(x) = -k x / sqrt(a² + x²), stepped by Störmer–Verlet
-//! (half drift, kick, half drift). It goes through what the real run needs of a microcontroller:
-//! 64-bit fixed point, f64 `+ * / sqrt`, the odd rounding of drift and kick, `heapless` storage
-//! and the hash.
-//!
-//! Exact: everything. Position and velocity are integers; each change of them is one rounding of
-//! an f64 to the nearest integer, ties away from zero, so R(-x) = -R(x) and the way back undoes
-//! the way out.
+//! Exact: everything. The set-up is a few `+ - * /` of literals in f64, rounded once into the
+//! state; from there on the core's contract holds. [`GOLDEN`] are the digests that every machine
+//! must print.
 #![no_std]
 #![forbid(unsafe_code)]
 
 use core::fmt;
-use core::hash::Hasher;
 
-use fixed::FixedI64;
-use fixed::types::extra::U46;
-use heapless::Vec;
-use siphasher::sip128::{Hasher128, SipHasher24};
+use loschmidt_core::fault::CapacityError;
+use loschmidt_core::integrator::STORMER_VERLET;
+use loschmidt_core::model::{
+    DensityCorrection, Forces, Gravity, Model, Parameters, SetupError, StateEquation, Symplectic,
+    Wall,
+};
+use loschmidt_core::number::{Fixed, Scale};
+use loschmidt_core::owned::{Owned, PushError};
+use loschmidt_core::{Digest, Fault, Serial};
 
 /// Steps of each leg.
-pub const STEPS: u32 = 200;
+pub const STEPS: u32 = 300;
 
-/// Particles of the run: the capacity, and the number used.
-const PARTICLES: usize = 300;
+/// The digests of the start, the turnaround and the end, which is the start again.
+///
+/// They change with the arithmetic of the core and with nothing else.
+pub const GOLDEN: [Digest; 3] = [
+    Digest(0xe3ab_636a_3f83_2532_cb2e_9e27_de25_4a95_u128.to_be_bytes()),
+    Digest(0x4cbe_dcf8_b010_05c6_d3f8_dbb8_9533_a14f_u128.to_be_bytes()),
+    Digest(0xe3ab_636a_3f83_2532_cb2e_9e27_de25_4a95_u128.to_be_bytes()),
+];
 
-/// Position in m and velocity in m/s: 46 bits behind the point, 17 before it.
-type Fixed = FixedI64<U46>;
+/// Water in spacings: 1 m x 2 m.
+const COLUMN: [i32; 2] = [12, 24];
+/// The inside of the box in spacings: 4 m x 3 m, open at the top.
+const BOX: [i32; 2] = [48, 36];
+/// Rows of wall particles.
+const WALL_ROWS: i32 = 3;
 
-/// One fixed-point unit is 2^-46.
-const UNITS_PER_ONE: f64 = (1_i64 << 46) as f64;
+const FLUID: usize = (COLUMN[0] * COLUMN[1]) as usize;
+const WALLS: usize = ((BOX[0] + 2 * WALL_ROWS) * (BOX[1] + WALL_ROWS) - BOX[0] * BOX[1]) as usize;
+/// Enough for cells as wide as a wall particle reaches.
+const BUCKETS: usize = 2048;
 
-/// s
-const TIME_STEP: f64 = 0.01;
-/// m/s²
-const STIFFNESS: f64 = 3.0;
-/// a in m
-const SOFTENING: f64 = 0.25;
+/// dr, m.
+const SPACING: f64 = 1.0 / COLUMN[0] as f64;
+/// H, m.
+const HEIGHT: f64 = 2.0;
+/// g, m/s².
+const GRAVITY: f64 = 9.8;
+/// ρ0, kg/m³.
+const DENSITY: f64 = 1000.0;
+/// c, m/s: 10 sqrt(2 g H), to three digits.
+const SOUND_SPEED: f64 = 62.6;
+/// h, m.
+const SUPPORT_RADIUS: f64 = 3.0 * SPACING;
+
+type Water = Symplectic<Fixed, 2>;
+
+/// The system, with all of its memory: about 70 kB.
+pub type Dam = Owned<Fixed, Water, 2, FLUID, WALLS, { BUCKETS + 1 }>;
 
 /// What a run came to.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outcome {
-    /// Particles that took part.
-    pub particles: usize,
+    /// Fluid particles.
+    pub fluid: usize,
+    /// Wall particles.
+    pub walls: usize,
     /// Steps of each leg.
     pub steps: u32,
+    /// How far the water reaches from the left wall at the turnaround, in whole millimetres.
+    pub front_mm: i64,
     /// Digest of the first state.
-    pub initial: u128,
+    pub initial: Digest,
     /// Digest of the state between the legs, before time is reversed.
-    pub turnaround: u128,
+    pub turnaround: Digest,
     /// Digest of the last state, after reversing again.
-    pub last: u128,
+    pub last: Digest,
 }
 
 impl Outcome {
-    /// Whether time came back: the last state is the first, bit for bit.
+    /// Whether time came back: something had happened, and the last state is the first, bit for
+    /// bit.
     pub fn reversed_exactly(&self) -> bool {
-        self.initial == self.last
+        self.initial != self.turnaround && self.initial == self.last
+    }
+
+    /// The three digests, to be compared with [`GOLDEN`].
+    pub fn digests(&self) -> [Digest; 3] {
+        [self.initial, self.turnaround, self.last]
     }
 }
 
 impl fmt::Display for Outcome {
-    /// One `name value` a line, digests as 32 hexadecimal digits, the last line ended too.
+    /// One `name value` a line, the last line ended too.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "particles {}", self.particles)?;
+        writeln!(f, "fluid {}", self.fluid)?;
+        writeln!(f, "walls {}", self.walls)?;
         writeln!(f, "steps {}", self.steps)?;
-        writeln!(f, "digest.initial {:032x}", self.initial)?;
-        writeln!(f, "digest.turnaround {:032x}", self.turnaround)?;
-        writeln!(f, "digest.final {:032x}", self.last)
+        writeln!(f, "front_mm {}", self.front_mm)?;
+        writeln!(f, "digest.initial {}", self.initial)?;
+        writeln!(f, "digest.turnaround {}", self.turnaround)?;
+        writeln!(f, "digest.final {}", self.last)
     }
 }
 
 /// Why a run stopped early.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// The storage holds fewer particles than the scene has.
-    Capacity {
-        /// What the storage holds.
-        capacity: usize,
-    },
-    /// A number left the range of the fixed point.
-    Range {
-        /// The particle.
-        particle: usize,
-        /// The step, counted along both legs from 0.
-        step: u32,
-    },
+    /// No model can be built from the parameters.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The grid is larger than the memory for it.
+    #[error(transparent)]
+    Capacity(#[from] CapacityError),
+    /// A particle was not taken.
+    #[error(transparent)]
+    Push(#[from] PushError<2>),
+    /// A particle could not go on.
+    #[error(transparent)]
+    Fault(#[from] Fault),
 }
 
-impl fmt::Display for RunError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Capacity { capacity } => {
-                write!(f, "more than the {capacity} particles there is room for")
-            }
-            Self::Range { particle, step } => {
-                write!(
-                    f,
-                    "particle {particle} left the number range in step {step}"
-                )
-            }
-        }
-    }
-}
-
-impl core::error::Error for RunError {}
-
-/// Makes the run: [`STEPS`] steps, reverse, [`STEPS`] steps, reverse.
+/// Makes the run on the stack: [`STEPS`] steps, reverse, [`STEPS`] steps, reverse.
 ///
 /// # Errors
-/// [`RunError`] where the storage is too small or a number leaves its range.
+/// [`RunError`], whichever part of the run it stopped.
 pub fn run() -> Result<Outcome, RunError> {
-    let mut state = initial_state()?;
-    let initial = digest(&state);
-    for step in 0..STEPS {
-        advance(&mut state, step)?;
-    }
-    let turnaround = digest(&state);
-    reverse_velocities(&mut state);
-    for step in STEPS..2 * STEPS {
-        advance(&mut state, step)?;
-    }
-    reverse_velocities(&mut state);
+    run_in(&mut None)
+}
+
+/// Makes the run in memory of the caller's choice, such as a static, and leaves the last state
+/// there.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_in(place: &mut Option<Dam>) -> Result<Outcome, RunError> {
+    let dam = place.insert(Dam::new(Water::new(Forces::new(parameters())?))?);
+    fill(dam)?;
+    dam.initialise(&Serial)?;
+    let initial = dam.digest();
+    dam.advance(u64::from(STEPS), &Serial)?;
+    let turnaround = dam.digest();
+    let front_mm = front_mm(dam);
+    dam.reverse();
+    dam.advance(u64::from(STEPS), &Serial)?;
+    dam.reverse();
+    let last = dam.digest();
+    let (_, system) = dam.parts();
     Ok(Outcome {
-        particles: state.len(),
+        fluid: system.state.len(),
+        walls: system.walls.position.len(),
         steps: STEPS,
+        front_mm,
         initial,
         turnaround,
-        last: digest(&state),
+        last,
     })
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Particle {
-    position: Fixed,
-    velocity: Fixed,
-}
-
-type State = Vec<Particle, PARTICLES>;
-
-fn initial_state() -> Result<State, RunError> {
-    let mut state = State::new();
-    for index in 0..PARTICLES {
-        // Small integers over a power of two: the first state has no rounding in it.
-        let particle = Particle {
-            position: Fixed::from_num(index as i64 - 150) / 128,
-            velocity: Fixed::from_num((index * index) as i64 % 61 - 30) / 32,
-        };
-        state.push(particle).map_err(|_| RunError::Capacity {
-            capacity: PARTICLES,
-        })?;
+fn parameters() -> Parameters<2> {
+    Parameters {
+        support_radius: SUPPORT_RADIUS,
+        time_step: 0.2 * SUPPORT_RADIUS / SOUND_SPEED,
+        mass: DENSITY * SPACING * SPACING,
+        reference_density: DENSITY,
+        sound_speed: SOUND_SPEED,
+        state_equation: StateEquation::Tait,
+        density_correction: DensityCorrection::Constant,
+        gravity: Gravity {
+            uniform: [0.0, -GRAVITY],
+            central: None,
+        },
+        wall: Wall::Conservative {
+            energy: 10.0 * GRAVITY * HEIGHT,
+            radius: 0.95 * SPACING,
+            softening: 0.0,
+        },
+        integrator: &STORMER_VERLET,
+        // Positions below 32 m, velocities below 2048 m/s, densities below 2048 kg/m³.
+        scale: Scale {
+            length_exponent: 0,
+            speed_exponent: 0,
+            density_exponent: 0,
+        },
+        extent: BOX.map(|n| f64::from(n) * SPACING),
+        max_buckets: BUCKETS,
     }
-    Ok(state)
 }
 
-fn advance(state: &mut State, step: u32) -> Result<(), RunError> {
-    for (particle, body) in state.iter_mut().enumerate() {
-        let range = RunError::Range { particle, step };
-        for verb in [drift, kick, drift] {
-            verb(body).ok_or(range)?;
+/// Water and walls on one square lattice, row after row from the bottom.
+fn fill(dam: &mut Dam) -> Result<(), PushError<2>> {
+    for j in -WALL_ROWS..BOX[1] {
+        for i in -WALL_ROWS..BOX[0] + WALL_ROWS {
+            let position = [i, j].map(|n| (f64::from(n) + 0.5) * SPACING);
+            let inside = (0..BOX[0]).contains(&i) && j >= 0;
+            if !inside {
+                dam.push_wall(position)?;
+            } else if i < COLUMN[0] && j < COLUMN[1] {
+                dam.push_fluid(position, [0.0, 0.0])?;
+            }
         }
     }
     Ok(())
 }
 
-/// x += R(dt/2 v); `None` where x leaves its range.
-fn drift(body: &mut Particle) -> Option<()> {
-    let change = round(0.5 * TIME_STEP * body.velocity.to_num::<f64>())?;
-    body.position = body.position.checked_add(change)?;
-    Some(())
-}
-
-/// v += R(dt f(x)); `None` where v leaves its range.
-fn kick(body: &mut Particle) -> Option<()> {
-    let x = body.position.to_num::<f64>();
-    let force = -STIFFNESS * x / libm::sqrt(SOFTENING * SOFTENING + x * x);
-    body.velocity = body.velocity.checked_add(round(TIME_STEP * force)?)?;
-    Some(())
-}
-
-/// Time is turned by turning the velocities. The fixed point is symmetric here: no velocity is
-/// the one integer without a negative, since each is far inside the range.
-fn reverse_velocities(state: &mut State) {
-    for body in state {
-        body.velocity = -body.velocity;
-    }
-}
-
-/// The nearest fixed-point number, ties away from zero; `None` outside the range and for NaN.
-fn round(value: f64) -> Option<Fixed> {
-    let units = libm::round(value * UNITS_PER_ONE);
-    // Below 2^62 the conversion is exact; the comparison is false for a NaN, which `as` would
-    // turn into 0.
-    (libm::fabs(units) < (1_i64 << 62) as f64).then(|| Fixed::from_bits(units as i64))
-}
-
-/// SipHash-2-4-128, zero key, over each particle's position and velocity as little-endian units.
-fn digest(state: &State) -> u128 {
-    let mut hasher = SipHasher24::new();
-    for body in state {
-        hasher.write(&body.position.to_bits().to_le_bytes());
-        hasher.write(&body.velocity.to_bits().to_le_bytes());
-    }
-    // Not `as_u128`: on a big-endian machine that swaps the bytes within each half.
-    u128::from_le_bytes(hasher.finish128().as_bytes())
+/// The rightmost particle's distance from the left wall, cut to whole millimetres.
+fn front_mm(dam: &mut Dam) -> i64 {
+    let (_, system) = dam.parts();
+    let rightmost = system.state.position.iter().map(|x| x[0]).max();
+    // Integers throughout; 2^46 quanta are a metre.
+    rightmost.map_or(0, |x| ((i128::from(x.to_bits()) * 1000) >> 46) as i64)
 }
