@@ -1,30 +1,146 @@
-//! A frame: an immutable picture of a state.
+//! A frame: what a run looks like between two steps.
+//!
+//! A frame is to look at. It holds the physical values, in SI units, of a synchronised state
+//! (positions and velocities at the same time), and nothing of the integers that the run itself is
+//! made of; to resume a run takes a snapshot. Nothing in a frame is rounded further than the f64
+//! it was handed in.
+//!
+//! Two clocks stand in it. [`Frame::time`] is physical: it rises from home to the turnaround and
+//! falls on the way back. [`Frame::elapsed`] rises along both legs, and is what orders frames.
 
-/// Immutable picture of a synchronised state, fluid in id order.
-#[derive(Clone, Debug, PartialEq)]
+use std::io;
+
+/// Picture of a synchronised state, the fluid in the order of its ids.
+///
+/// The fluid's lists have one entry per particle, all in the same order.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// 2 or 3; in 2D the last component of every vector is zero.
+    /// Dimension of space, 2 or 3.
     pub dimension: usize,
-    /// Steps from home along physical time: falls on the way back.
+    /// Physical step; 0 is home.
     pub step: u64,
-    /// Physical time, s: falls on the way back.
+    /// Physical time in s; falls on the way back.
     pub time: f64,
-    /// Simulated time along both legs, s.
+    /// Time in s along both legs; never falls.
     pub elapsed: f64,
-    /// True after the turnaround.
+    /// Whether time has been turned.
     pub way_back: bool,
-    /// Mass of every particle, kg (per m of depth in 2D).
+    /// Mass of a fluid particle in kg (2D: of a metre of depth).
     pub particle_mass: f64,
-    /// Ids of the fluid.
+    /// Ids of the fluid, rising.
     pub id: Vec<u64>,
-    /// Positions of the fluid, m.
+    /// Positions of the fluid in m; z = 0 in 2D.
     pub position: Vec<[f64; 3]>,
-    /// Velocities of the fluid, m/s, as the run has them: reversed on the way back.
+    /// Velocities of the fluid in m/s; z = 0 in 2D.
     pub velocity: Vec<[f64; 3]>,
-    /// Densities, kg/m³.
+    /// Densities of the fluid in kg/m³.
     pub density: Vec<f64>,
-    /// Pressures, Pa.
+    /// Pressures of the fluid in Pa.
     pub pressure: Vec<f64>,
-    /// Positions of the walls, m.
+    /// Positions of the walls in m; z = 0 in 2D.
     pub wall_position: Vec<[f64; 3]>,
+}
+
+impl Frame {
+    /// Number of fluid and wall particles together.
+    pub fn particles(&self) -> usize {
+        self.id.len() + self.wall_position.len()
+    }
+
+    /// Ids for the walls: they follow the largest id of the fluid, in the order of
+    /// [`Frame::wall_position`], so that no two particles of a frame share one, and a wall
+    /// particle keeps its own from frame to frame as long as the fluid keeps its particles.
+    pub fn wall_ids(&self) -> impl Iterator<Item = u64> + use<> {
+        let first = self.id.last().map_or(0, |last| last.saturating_add(1));
+        (first..).take(self.wall_position.len())
+    }
+
+    /// Whether a file can be made of this frame.
+    ///
+    /// # Errors
+    /// Names the first thing wrong: the dimension, the length of a list, an id out of order or
+    /// above `i64::MAX`, a particle of a two-dimensional frame outside the plane z = 0.
+    pub fn check(&self) -> Result<(), FrameError> {
+        if !(2..=3).contains(&self.dimension) {
+            return Err(FrameError::Dimension(self.dimension));
+        }
+        let expected = self.id.len();
+        for (list, found) in [
+            ("position", self.position.len()),
+            ("velocity", self.velocity.len()),
+            ("density", self.density.len()),
+            ("pressure", self.pressure.len()),
+        ] {
+            if found != expected {
+                return Err(FrameError::Length {
+                    list,
+                    found,
+                    expected,
+                });
+            }
+        }
+        if let Some(before) = self.id.windows(2).position(|pair| pair[0] >= pair[1]) {
+            return Err(FrameError::IdOrder { index: before + 1 });
+        }
+        let last = self.id.last().copied().unwrap_or(0);
+        if last.saturating_add(self.wall_position.len() as u64) > i64::MAX as u64 {
+            return Err(FrameError::IdRange { last });
+        }
+        if self.dimension == 2 {
+            for (list, vectors) in [
+                ("position", &self.position),
+                ("velocity", &self.velocity),
+                ("wall_position", &self.wall_position),
+            ] {
+                if let Some(index) = vectors.iter().position(|vector| vector[2] != 0.0) {
+                    return Err(FrameError::OutOfPlane { list, index });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Why no file can be made of a frame.
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+pub enum FrameError {
+    /// Neither 2 nor 3.
+    #[error("a frame has 2 or 3 dimensions, not {0}")]
+    Dimension(usize),
+    /// A list that has more or fewer entries than there are particles.
+    #[error("the frame's `{list}` has {found} entries for {expected} fluid particles")]
+    Length {
+        /// Name of the list.
+        list: &'static str,
+        /// Its number of entries.
+        found: usize,
+        /// Number of fluid particles.
+        expected: usize,
+    },
+    /// An id that is not above the one before it.
+    #[error("the frame's ids do not rise at index {index}")]
+    IdOrder {
+        /// Index of the later of the two.
+        index: usize,
+    },
+    /// Ids that a signed 64-bit integer cannot hold, and with them most readers.
+    #[error("the frame's ids end beyond the largest signed 64-bit integer (fluid: {last})")]
+    IdRange {
+        /// Largest id of the fluid.
+        last: u64,
+    },
+    /// A two-dimensional frame with a z that is not zero.
+    #[error("the frame is two-dimensional, but z of its `{list}` is not 0 at index {index}")]
+    OutOfPlane {
+        /// Name of the list.
+        list: &'static str,
+        /// Index in it.
+        index: usize,
+    },
+}
+
+impl From<FrameError> for io::Error {
+    fn from(error: FrameError) -> Self {
+        Self::new(io::ErrorKind::InvalidInput, error)
+    }
 }

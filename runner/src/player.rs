@@ -92,11 +92,7 @@ impl Player {
     ///
     /// # Errors
     /// [`BuildError`].
-    pub fn new(
-        scene: Scene,
-        initial: InitialState,
-        options: Options,
-    ) -> Result<Self, BuildError> {
+    pub fn new(scene: Scene, initial: InitialState, options: Options) -> Result<Self, BuildError> {
         let mut simulation = setup::simulation(&scene, &initial, &options)?;
         Ok(Self {
             home: simulation.save(),
@@ -318,6 +314,7 @@ impl Player {
     /// How the present state differs from home. Digests are equal only in the same arithmetic; the
     /// distance is measured in either.
     pub fn compare_with_home(&mut self) -> Return {
+        let digest = self.digest();
         let present = self.with_arrow_forward(|simulation| simulation.save());
         let home = if present.arithmetic == self.home.arithmetic {
             &self.home
@@ -333,7 +330,7 @@ impl Player {
             .count();
         Return {
             home: self.home_digest,
-            present: self.digest(),
+            present: digest,
             error: present.largest_distance(home),
             astray,
         }

@@ -1,11 +1,12 @@
 //! From a scene to a simulation: the parameters of the core, its units, and the memory it takes.
 
+use crate::player::Player;
 use crate::scene::{self, InitialState, Point, Scene};
 use crate::simulation::{BuildError, ModelKind, Options, Simulation, build};
 use crate::storage;
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
 use loschmidt_core::model::{Central, DensityCorrection, Gravity, StateEquation, Wall};
-use loschmidt_core::{Parameters, Scale};
+use loschmidt_core::{Fault, Parameters, Scale};
 
 /// Sets up the scene's simulation at step 0.
 ///
@@ -149,5 +150,79 @@ pub fn available_memory() -> Option<u64> {
     match system.available_memory() {
         0 => None,
         bytes => Some(bytes),
+    }
+}
+
+/// A scene that needs more memory than there is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the scene needs about {} MiB of memory and {} MiB are available; choose a larger particle_spacing",
+    needed >> 20,
+    available >> 20
+)]
+pub struct MemoryError {
+    /// Bytes.
+    pub needed: u64,
+    /// Bytes.
+    pub available: u64,
+}
+
+/// Compares the estimate with what the machine can give, before anything is allocated.
+///
+/// # Errors
+/// The scene is too large.
+pub fn check_memory(scene: &Scene) -> Result<(), MemoryError> {
+    let needed = estimated_bytes(scene);
+    match available_memory() {
+        Some(available) if needed > available => Err(MemoryError { needed, available }),
+        _ => Ok(()),
+    }
+}
+
+/// Time steps that are small enough, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// 0.4 h/c: sound crosses less than the support radius.
+    pub acoustic: f64,
+    /// 0.25 sqrt(h/a) with the largest acceleration a at the start; `None` without forces.
+    pub force: Option<f64>,
+    /// 0.5 r_wall/sqrt(2 E): near r_wall the conservative wall is a spring of frequency
+    /// sqrt(2 E)/r_wall, stable for time steps up to four times this; `None` without such a wall.
+    pub wall: Option<f64>,
+}
+
+impl Limits {
+    /// The limits at the player's present state. Takes a step to learn the accelerations, and goes
+    /// back to where it was.
+    ///
+    /// # Errors
+    /// The step failed.
+    pub fn of(player: &mut Player) -> Result<Self, Fault> {
+        let before = player.save();
+        let (position, arrow) = (player.position(), player.arrow());
+        player.advance(1)?;
+        let after = player.save();
+        // The state came from this very player: it fits.
+        let _ = player.restore(&before, position, arrow);
+        let scene = player.scene();
+        let dt = scene.time_step();
+        let largest = (0..before.id.len())
+            .map(|n| {
+                let (a, b) = (before.velocity(n), after.velocity(n));
+                (0..3).map(|d| ((b[d] - a[d]) / dt).powi(2)).sum::<f64>()
+            })
+            .fold(0.0, f64::max)
+            .sqrt();
+        let h = scene.support_radius();
+        Ok(Self {
+            acoustic: 0.4 * h / scene.fluid.sound_speed,
+            force: (largest > 0.0).then(|| 0.25 * (h / largest).sqrt()),
+            wall: match wall(scene) {
+                Wall::Conservative { energy, radius, .. } => {
+                    Some(0.5 * radius / (2.0 * energy).sqrt())
+                }
+                Wall::Dummy | Wall::None => None,
+            },
+        })
     }
 }

@@ -176,7 +176,8 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
                 to_quanta(first(particles.fluid[i]), scale.length_quantum())
                     .ok_or(BuildError::Range { particle: id })?;
             system.state.velocity[place] =
-                to_quanta(first(particles.fluid_velocity[i]), scale.speed_quantum()).ok_or(range)?;
+                to_quanta(first(particles.fluid_velocity[i]), scale.speed_quantum())
+                    .ok_or(range)?;
         }
         for (w, x) in particles.wall.iter().enumerate() {
             let particle = (n + w) as u64;

@@ -183,3 +183,21 @@ fn an_unknown_name_is_answered_with_the_nearest_one() {
         Source::Path("mine.toml".into())
     );
 }
+
+#[test]
+fn nesting_without_end_is_refused_and_not_followed() {
+    let deep = 100_000;
+    let texts = [
+        format!("{}=1", vec!["a"; deep].join(".")),
+        format!("a = {}", "[".repeat(deep)),
+        format!("[{}]", vec!["a"; deep].join(".")),
+        format!("shape = {}", "{ union = [".repeat(deep)),
+    ];
+    for text in &texts {
+        let shown: String = text.chars().take(20).collect();
+        let error = refusal(text, &[]);
+        assert!(matches!(error, SceneError::Invalid(_)), "{shown}");
+        let error = refusal(DROP, &[text.as_str()]);
+        assert!(matches!(error, SceneError::Invalid(_)), "{shown}");
+    }
+}

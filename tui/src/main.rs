@@ -1,2 +1,20 @@
-//! The program `loschmidt`.
-fn main() {}
+//! The program `loschmidt`: reads the command line and calls the runner.
+
+#![forbid(unsafe_code)]
+
+mod cli;
+mod commands;
+mod exit;
+mod progress;
+mod report;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = cli::Arguments::parse();
+    match commands::execute(arguments) {
+        Ok(code) => code,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,13 +1,15 @@
 //! The directory of a run: created without overwriting, written file by file.
 
 use super::manifest::Manifest;
+use super::particles_csv::CsvWriter;
+use super::pvd::Collection;
 use super::series::{self, SeriesWriter};
 use super::snapshot::{Snapshot, SnapshotError};
-use super::{particles_csv, pvd, vtp};
+use super::vtp::VtpWriter;
+use super::{COLLECTION, frame_path};
 use crate::frame::Frame;
 use crate::run::Row;
 use std::fs::{self, File};
-use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -44,13 +46,14 @@ pub enum OutputError {
 pub struct RunDirectory {
     path: PathBuf,
     series: SeriesWriter<File>,
-    frames: Vec<(f64, String)>,
+    frames: Collection,
+    csv: CsvWriter,
+    vtp: VtpWriter,
 }
 
 const MANIFEST: &str = "manifest.json";
 const SCENE: &str = "scene.toml";
 const SERIES: &str = "series.csv";
-const PVD: &str = "particles.pvd";
 const FRAMES: &str = "frames";
 const SNAPSHOTS: &str = "snapshots";
 
@@ -103,7 +106,9 @@ impl RunDirectory {
         Ok(Self {
             path: path.to_owned(),
             series: SeriesWriter::new(file),
-            frames: Vec::new(),
+            frames: Collection::new(),
+            csv: CsvWriter::new(),
+            vtp: VtpWriter::new(),
         })
     }
 
@@ -127,7 +132,9 @@ impl RunDirectory {
         let directory = Self {
             path: path.to_owned(),
             series: writer,
-            frames: Vec::new(),
+            frames: Collection::new(),
+            csv: CsvWriter::new(),
+            vtp: VtpWriter::new(),
         };
         Ok((directory, rows))
     }
@@ -206,9 +213,13 @@ impl RunDirectory {
     }
 
     /// Notes a frame that an earlier part of the run has written.
-    pub fn note_frame(&mut self, elapsed: f64) {
-        let name = frame_name(self.frames.len());
-        self.frames.push((elapsed, format!("{FRAMES}/{name}.vtp")));
+    ///
+    /// # Errors
+    /// Frames must come in the order of time.
+    pub fn note_frame(&mut self, elapsed: f64) -> Result<(), OutputError> {
+        let path = self.path.join(COLLECTION);
+        let name = frame_path(self.frames.len() as u64, "vtp");
+        self.frames.push(elapsed, name).map_err(io("write", &path))
     }
 
     /// Writes a frame as CSV and VTP, and the collection anew.
@@ -216,32 +227,29 @@ impl RunDirectory {
     /// # Errors
     /// The file system's.
     pub fn write_frame(&mut self, frame: &Frame) -> Result<(), OutputError> {
-        let name = frame_name(self.frames.len());
-        let write = |extension: &str, fill: &dyn Fn(&mut dyn Write) -> std::io::Result<()>| {
-            let path = self.path.join(FRAMES).join(format!("{name}.{extension}"));
-            let file = File::create(&path).map_err(io("create", &path))?;
-            let mut writer = BufWriter::new(file);
-            fill(&mut writer)
-                .and_then(|()| writer.flush())
-                .map_err(io("write", &path))
+        let index = self.frames.len() as u64;
+        let create = |extension| {
+            let path = self.path.join(frame_path(index, extension));
+            match File::create(&path) {
+                Ok(file) => Ok((file, path)),
+                Err(source) => Err(io("create", &path)(source)),
+            }
         };
-        write("csv", &|w| particles_csv::write(frame, w))?;
-        write("vtp", &|w| vtp::write(frame, w))?;
-        self.note_frame(frame.elapsed);
+        let (file, path) = create("csv")?;
+        self.csv.write(frame, file).map_err(io("write", &path))?;
+        let (file, path) = create("vtp")?;
+        self.vtp.write(frame, file).map_err(io("write", &path))?;
+        self.note_frame(frame.elapsed)?;
+        let path = self.path.join(COLLECTION);
         let mut text = Vec::new();
-        let path = self.path.join(PVD);
-        pvd::write(&self.frames, &mut text).map_err(io("write", &path))?;
+        self.frames.write(&mut text).map_err(io("write", &path))?;
         replace(&path, &text)
     }
 }
 
-fn frame_name(n: usize) -> String {
-    format!("particles-{n:06}")
-}
-
 /// Removes what a run writes, and nothing else.
 fn remove_run(path: &Path) -> Result<(), OutputError> {
-    for name in [MANIFEST, SCENE, SERIES, PVD] {
+    for name in [MANIFEST, SCENE, SERIES, COLLECTION] {
         let file = path.join(name);
         match fs::remove_file(&file) {
             Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
@@ -250,7 +258,10 @@ fn remove_run(path: &Path) -> Result<(), OutputError> {
             _ => {}
         }
     }
-    for (sub, extensions) in [(FRAMES, &["csv", "vtp"][..]), (SNAPSHOTS, &["snapshot", "part"])] {
+    for (sub, extensions) in [
+        (FRAMES, &["csv", "vtp"][..]),
+        (SNAPSHOTS, &["snapshot", "part"]),
+    ] {
         let sub = path.join(sub);
         let Ok(entries) = fs::read_dir(&sub) else {
             continue;

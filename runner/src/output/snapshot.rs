@@ -237,9 +237,9 @@ impl Snapshot {
             let words = s.fields.iter().flat_map(|(name, words)| {
                 let c = words.len() / s.id.len();
                 let turned = name == "velocity" && self.arrow == Arrow::Backward;
-                words[n * c..(n + 1) * c].iter().map(move |&w| {
-                    if turned { negated(w, s.arithmetic) } else { w }
-                })
+                words[n * c..(n + 1) * c]
+                    .iter()
+                    .map(move |&w| if turned { negated(w, s.arithmetic) } else { w })
             });
             sum.add(Kind::Fluid, *id, words);
         }

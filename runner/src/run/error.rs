@@ -2,6 +2,7 @@
 
 use crate::output::OutputError;
 use crate::scene::SceneError;
+use crate::setup::MemoryError;
 use crate::simulation::BuildError;
 use loschmidt_core::Fault;
 use std::path::PathBuf;
@@ -14,17 +15,8 @@ pub enum RunError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// The scene needs more memory than there is; nothing was allocated.
-    #[error(
-        "the scene needs about {} MiB of memory and {} MiB are available; choose a larger particle_spacing",
-        needed >> 20,
-        available >> 20
-    )]
-    Memory {
-        /// Bytes.
-        needed: u64,
-        /// Bytes.
-        available: u64,
-    },
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
     /// The scene cannot be simulated.
     #[error(transparent)]
     Build(#[from] BuildError),

@@ -133,7 +133,7 @@ impl Run {
         run.rows = rows;
         run.turnaround_digest = turnaround.map(|snapshot| snapshot.digest().to_string());
         run.check_rows(path)?;
-        run.note_frames(step);
+        run.note_frames(step)?;
         Ok(run)
     }
 
@@ -168,13 +168,14 @@ impl Run {
         }
     }
 
-    fn note_frames(&mut self, step: u64) {
+    fn note_frames(&mut self, step: u64) -> Result<(), RunError> {
         let dt = self.player.scene().time_step();
         if let Some(directory) = &mut self.directory {
             for s in self.plan.frames_until(step) {
-                directory.note_frame(s as f64 * dt);
+                directory.note_frame(s as f64 * dt)?;
             }
         }
+        Ok(())
     }
 
     /// The directory written to.
@@ -201,7 +202,7 @@ impl Run {
         &self.plan
     }
 
-    /// Takes the run to its end. `observe` is called after every row; when `stop` becomes true,
+    /// Takes the run to its end. `observe` is called several times a second; when `stop` becomes true,
     /// the run leaves a snapshot and returns [`RunError::Interrupted`].
     ///
     /// # Errors
@@ -231,9 +232,8 @@ impl Run {
             if let Err(fault) = result {
                 return Err(self.fail(fault)?);
             }
-            if self.record(step + steps)? {
-                self.observe(&mut observe);
-            }
+            self.record(step + steps)?;
+            self.observe(&mut observe);
         }
         self.finish()
     }
@@ -250,8 +250,8 @@ impl Run {
         }
     }
 
-    /// Records what is due after `step` steps; true if there was a row.
-    fn record(&mut self, step: u64) -> Result<bool, RunError> {
+    /// Records what is due after `step` steps.
+    fn record(&mut self, step: u64) -> Result<(), RunError> {
         let due = self.plan.due(step);
         if due.row {
             let leg = if step > self.plan.out { 2 } else { 1 };
@@ -285,7 +285,7 @@ impl Run {
             self.write_snapshot("latest")?;
             self.write_manifest(Status::Running, None, None)?;
         }
-        Ok(due.row)
+        Ok(())
     }
 
     fn keep_good(&mut self) {
@@ -396,12 +396,7 @@ impl Run {
 
 /// Home, after the memory for it was found to be there.
 fn new_player(scene: Scene, options: Options) -> Result<Player, RunError> {
-    let needed = setup::estimated_bytes(&scene);
-    if let Some(available) = setup::available_memory()
-        && needed > available
-    {
-        return Err(RunError::Memory { needed, available });
-    }
+    setup::check_memory(&scene)?;
     let initial = scene.initial_state()?;
     Ok(Player::new(scene, initial, options)?)
 }

@@ -2,10 +2,10 @@
 
 use super::row::Row;
 use crate::player::{Player, Return};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Digests of the three states, as hexadecimal text.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Digests {
     /// At home.
     pub initial: String,

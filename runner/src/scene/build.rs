@@ -4,17 +4,18 @@
 //! Values that [`check`](super::check) has already refused are replaced by NaN or another
 //! stand-in, which no rule complains about, so that one mistake gives one message.
 
-use super::check::{check, dimension, number};
+use super::check::{check, dimension};
 use super::error::{Problem, ProblemKind, Problems, SceneError};
 use super::nearest::nearest;
 use super::regions;
 use super::schema::{self, Default, Kind, Section};
 use super::source::is_name_character;
-use super::spec::{Entry, Node, SceneSpec, Span, Table, Value};
+use super::spec::{Entry, SceneSpec, Span, Table, Value};
 use super::types::{
-    CentralGravity, Dimension, Fluid, Gravity, Output, Region, RegionKind, Scene, StepRule, WallModel,
-    WallPotential, whole_steps,
+    CentralGravity, Dimension, Fluid, Gravity, Output, Region, RegionKind, Scene, StepRule,
+    WallModel, WallPotential, whole_steps,
 };
+use super::values::{as_table, finite, numbers};
 use super::words::Word;
 
 /// Stands in for a table that is not in the file: all its keys have their defaults.
@@ -276,14 +277,12 @@ impl<'a> Builder<'a> {
 
     fn output(&mut self, top: Here<'a>) -> Output {
         let table = EMPTY_TABLE;
-        let here = self
-            .inner(top, "output", Section::Output)
-            .unwrap_or(Here {
-                table,
-                span: None,
-                section: Section::Output,
-                name: "output",
-            });
+        let here = self.inner(top, "output", Section::Output).unwrap_or(Here {
+            table,
+            span: None,
+            section: Section::Output,
+            name: "output",
+        });
         // Whole numbers within the schema's ranges, or the NaN of a refused one.
         let mut count = |name| self.number(here, name) as u64;
         Output {
@@ -408,33 +407,4 @@ fn accepted(here: Here, entry: &Entry) -> f64 {
     finite(&entry.node)
         .filter(|&x| range.is_none_or(|range| range.contains(x)))
         .unwrap_or(f64::NAN)
-}
-
-fn finite(node: &Node) -> Option<f64> {
-    number(node).filter(|x| x.is_finite())
-}
-
-/// The table in a node, if it is one.
-pub(super) fn as_table(node: &Node) -> Option<&Table> {
-    match &node.value {
-        Value::Table(table) => Some(table),
-        _ => None,
-    }
-}
-
-/// The elements of a list; none for anything else.
-pub(super) fn elements(node: &Node) -> &[Node] {
-    match &node.value {
-        Value::List(list) => list,
-        _ => &[],
-    }
-}
-
-/// Up to three numbers of a list; zero for absent ones, NaN for refused ones.
-pub(super) fn numbers(node: &Node) -> [f64; 3] {
-    let list = elements(node);
-    std::array::from_fn(|k| {
-        list.get(k)
-            .map_or(0.0, |element| finite(element).unwrap_or(f64::NAN))
-    })
 }

@@ -44,7 +44,7 @@ const ENTRIES: &[CatalogueEntry] = &[
     },
     CatalogueEntry {
         name: "rotating-drop",
-        title: "a free drop in rigid rotation, without gravity or walls",
+        title: "a free drop in rigid rotation opens into a wheel of threads",
         citation: "after Colagrossi, PhD thesis, Università di Roma La Sapienza (2005)",
         text: include_str!("../../scenes/rotating-drop.toml"),
     },

@@ -1,10 +1,11 @@
-//! Checks what was written against the [schema](super::schema): every key is known, every
+//! Checks what was written against the [schema]: every key is known, every
 //! value has its key's type and range. All mistakes are collected.
 
 use super::error::{Problem, ProblemKind};
 use super::nearest::nearest;
 use super::schema::{self, Key, Kind, Range, Section, listed, quoted};
 use super::spec::{Node, SceneSpec, Span, Table, Value};
+use super::values::number;
 use super::words::Dimension;
 
 /// Every mistake that can be seen in one value alone.
@@ -24,16 +25,6 @@ pub(super) fn dimension(root: &Table) -> Option<Dimension> {
         None | Some(Value::Integer(2)) => Some(Dimension::Two),
         Some(Value::Integer(3)) => Some(Dimension::Three),
         Some(_) => None,
-    }
-}
-
-/// A finite or infinite number, whole or not.
-pub(super) fn number(node: &Node) -> Option<f64> {
-    match node.value {
-        // Exact below 2^53, and rounded to the nearest number above.
-        Value::Integer(n) => Some(n as f64),
-        Value::Float(x) => Some(x),
-        _ => None,
     }
 }
 
@@ -177,7 +168,10 @@ impl Checker<'_> {
             Kind::Table(inner) => (
                 "a table".to_owned(),
                 match (&node.value, inner) {
-                    (Value::List(_), Section::Fluid | Section::Gravity | Section::Wall | Section::Output) => {
+                    (
+                        Value::List(_),
+                        Section::Fluid | Section::Gravity | Section::Wall | Section::Output,
+                    ) => {
                         vec![format!("write {} in single brackets", inner.title())]
                     }
                     _ => {

@@ -93,6 +93,18 @@ pub enum SceneError {
         /// Particle spacing, m.
         particle_spacing: f64,
     },
+    /// A shape whose parts lie so far apart that its bounds cannot be searched.
+    #[error(
+        "error: the shape of region {region} of scene `{scene}` spreads over {nodes} lattice nodes, too many to search\nhelp: give every part of the shape its own `[[region]]`, or raise `particle_spacing`"
+    )]
+    TooSparse {
+        /// Name of the scene.
+        scene: String,
+        /// Number of the region in file order, from 0.
+        region: usize,
+        /// Number of lattice nodes in the bounds of the shape.
+        nodes: u64,
+    },
     /// So far from the origin that neighbouring lattice nodes round to one number.
     #[error(
         "error: region {region} of scene `{scene}` reaches {reach:?} m from the origin, too far for a particle spacing of {particle_spacing:?} m: rounding would bend its lattice\nhelp: move the scene towards the origin or raise `particle_spacing`"

@@ -27,8 +27,8 @@ const MOST_PARTICLES: u64 = 1 << 31;
 /// The most nodes an estimate visits in one region.
 const MOST_SAMPLES: f64 = (1_u64 << 20) as f64;
 
-/// The most nodes of a region's bounds: a shape that fills less than a quarter of its
-/// bounds is not searched for long in vain.
+/// The most nodes of a region's bounds, each of which is visited: a shape that fills but
+/// a little of its bounds is not searched for hours.
 const MOST_NODES: f64 = (1_u64 << 33) as f64;
 
 /// Particles nearer than this, in spacings, lie on one point: their coordinates differ
@@ -70,7 +70,7 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError::NoFluid`], [`SceneError::TooManyParticles`],
-    /// [`SceneError::TooFar`], and [`SceneError::Coincident`] when particles of two
+    /// [`SceneError::TooFar`], [`SceneError::TooSparse`], and [`SceneError::Coincident`] when particles of two
     /// regions lie on one point.
     pub fn initial_state(&self) -> Result<InitialState, SceneError> {
         let no_fluid = || SceneError::NoFluid {
@@ -78,8 +78,10 @@ impl Scene {
             particle_spacing: self.particle_spacing,
         };
         let first = self.first_lattice().ok_or_else(no_fluid)?;
-        let (fluid, wall) = self.estimated_particles();
-        self.refuse_above(fluid.saturating_add(wall), MOST_PARTICLES)?;
+        if self.nodes_of_bounds(first) > MOST_PARTICLES as f64 {
+            let (fluid, wall) = self.estimated_particles();
+            self.refuse_above(fluid.saturating_add(wall), MOST_PARTICLES)?;
+        }
 
         let mut state = InitialState::default();
         let mut placed = Vec::new();
@@ -121,6 +123,14 @@ impl Scene {
             .iter()
             .enumerate()
             .filter(move |(_, region)| walls || region.kind == RegionKind::Fluid)
+    }
+
+    /// The number of nodes in the bounds of all regions: no scene has more particles.
+    fn nodes_of_bounds(&self, lattice: Lattice) -> f64 {
+        self.filled_regions()
+            .filter_map(|(_, region)| region.shape.bounds(lattice.spacing))
+            .map(|bounds| lattice.nodes_within(bounds))
+            .sum()
     }
 
     fn own_lattice(&self, region: &Region) -> Option<Lattice> {
@@ -176,7 +186,11 @@ impl Scene {
         }
         let nodes = lattice.nodes_within(bounds);
         if nodes > MOST_NODES {
-            return self.refuse_above(nodes as u64, MOST_PARTICLES);
+            return Err(SceneError::TooSparse {
+                scene: self.name.clone(),
+                region,
+                nodes: nodes as u64,
+            });
         }
         Ok(())
     }

@@ -27,9 +27,6 @@ pub(super) struct Lattice {
     pub spacing: f64,
 }
 
-/// The indices of a box of nodes: lower ones included, upper ones excluded.
-pub(super) type Extent = (Index, Index);
-
 impl Lattice {
     pub fn dimension(&self) -> Dimension {
         match self.kind {
@@ -72,11 +69,13 @@ impl Lattice {
             .product()
     }
 
-    /// The indices of all nodes in a box, and a few around it.
-    fn extent(&self, bounds: Bounds) -> Extent {
+    /// The lowest and one above the highest index of all nodes in a box and a few around it.
+    fn extent(&self, bounds: Bounds) -> (Index, Index) {
         let pitch = self.pitch();
         let axes = self.dimension().axes();
-        let index = |k: usize, x: f64| (x - self.origin[k]) / pitch[k];
+        // Far beyond any scene that is accepted, and far below the end of i64.
+        const FARTHEST: f64 = (1_u64 << 52) as f64;
+        let index = |k: usize, x: f64| ((x - self.origin[k]) / pitch[k]).clamp(-FARTHEST, FARTHEST);
         let low = |k| {
             if k < axes {
                 index(k, bounds.0[k]).floor() as i64 - 1
@@ -99,51 +98,88 @@ impl Lattice {
         let Some(bounds) = shape.bounds(self.spacing) else {
             return;
         };
+        let grid = Grid {
+            lattice: *self,
+            stencils: shape
+                .reaches()
+                .into_iter()
+                .map(|reach| Stencil::new(self, reach))
+                .collect(),
+        };
         let (low, high) = self.extent(bounds);
         for k in low[2]..high[2] {
             for j in low[1]..high[1] {
                 for i in low[0]..high[0] {
-                    if shape.contains(self, [i, j, k]) {
+                    if shape.contains(&grid, [i, j, k]) {
                         visitor(self.node([i, j, k]));
                     }
                 }
             }
         }
     }
+}
 
+/// A lattice with the neighbourhoods that the layers of a shape ask for.
+pub(super) struct Grid {
+    pub lattice: Lattice,
+    stencils: Vec<Stencil>,
+}
+
+impl Grid {
     /// Whether `test` holds for a node within `reach` spacings of `index`.
-    pub fn any_neighbour(
-        &self,
-        index: Index,
-        reach: f64,
-        mut test: impl FnMut(Index) -> bool,
-    ) -> bool {
+    pub fn any_neighbour(&self, index: Index, reach: f64, test: impl Fn(Index) -> bool) -> bool {
+        let stencil = self.stencils.iter().find(|stencil| stencil.reach == reach);
+        stencil.is_some_and(|stencil| {
+            // The rows of a hexagonal lattice alternate; those of the others are alike.
+            let parity = index[1].rem_euclid(2) as usize;
+            stencil.offsets[parity]
+                .iter()
+                .any(|offset| test(std::array::from_fn(|k| index[k] + offset[k])))
+        })
+    }
+}
+
+/// The offsets to all nodes within a distance, nearest first, for even and odd rows.
+struct Stencil {
+    /// The distance in spacings.
+    reach: f64,
+    offsets: [Vec<Index>; 2],
+}
+
+impl Stencil {
+    fn new(lattice: &Lattice, reach: f64) -> Self {
+        let unit = Lattice {
+            origin: [0.0; 3],
+            spacing: 1.0,
+            ..*lattice
+        };
         // The rows of every lattice are at least 0.9 spacings apart.
         let steps = (reach / 0.9).ceil() as i64;
-        let deep = match self.dimension() {
+        let deep = match lattice.dimension() {
             Dimension::Two => 0,
             Dimension::Three => steps,
         };
-        let unit = Self {
-            origin: [0.0; 3],
-            spacing: 1.0,
-            ..*self
-        };
-        // Offsets repeat from row to row but for the parity of the row.
-        let here = [0, index[1].rem_euclid(2), 0];
-        let from = unit.node(here);
-        for k in -deep..=deep {
-            for j in -steps..=steps {
-                for i in -steps..=steps {
-                    let to = unit.node([i, here[1] + j, k]);
-                    let d = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-                    let near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= reach * reach;
-                    if near && test([index[0] + i, index[1] + j, index[2] + k]) {
-                        return true;
+        let around = |row: i64| {
+            let from = unit.node([0, row, 0]);
+            let mut near = Vec::new();
+            for k in -deep..=deep {
+                for j in -steps..=steps {
+                    for i in -steps..=steps {
+                        let to = unit.node([i, row + j, k]);
+                        let d = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+                        let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+                        if squared <= reach * reach {
+                            near.push((squared, [i, j, k]));
+                        }
                     }
                 }
             }
+            near.sort_by(|a, b| a.0.total_cmp(&b.0));
+            near.into_iter().map(|(_, offset)| offset).collect()
+        };
+        Self {
+            reach,
+            offsets: [around(0), around(1)],
         }
-        false
     }
 }

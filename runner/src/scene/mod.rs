@@ -46,6 +46,7 @@ mod shape;
 mod source;
 mod spec;
 mod types;
+mod values;
 mod words;
 
 pub use catalogue::{CatalogueEntry, catalogue};
@@ -55,7 +56,8 @@ pub use shape::{Point, Shape};
 pub use source::{Source, resolve};
 pub use types::{
     CentralGravity, DensityCorrection, Dimension, EquationOfState, Fluid, Gravity, Integrator,
-    LatticeKind, Model, Output, Region, RegionKind, Scene, StepRule, Velocity, WallModel, WallPotential,
+    LatticeKind, Model, Output, Region, RegionKind, Scene, StepRule, Velocity, WallModel,
+    WallPotential,
 };
 
 /// Reads a scene, merges the overrides `path=value` into it in their order, and validates

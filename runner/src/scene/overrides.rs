@@ -12,6 +12,10 @@ use super::error::{Problem, ProblemKind};
 use super::schema::{self, Kind, Section};
 use super::spec::{self, Entry, Node, SceneSpec, Span, Table, Value};
 
+/// The most steps of a path, far beyond any that leads somewhere: the depth of tables
+/// stays bounded whatever is typed.
+const DEEPEST: usize = 64;
+
 /// One step of a path.
 struct Segment<'a> {
     name: &'a str,
@@ -67,6 +71,13 @@ pub(super) fn apply(spec: &mut SceneSpec, text: &str) -> Result<(), Box<Problem>
 
 /// Splits a path; the error is the place where it is broken.
 fn segments(path: &str, text: usize) -> Result<Vec<Segment<'_>>, Span> {
+    if path.split(['.', '[']).count() > DEEPEST {
+        return Err(Span {
+            text,
+            start: 0,
+            end: path.len(),
+        });
+    }
     let mut segments = Vec::new();
     let mut start = 0;
     for part in path.split('.') {

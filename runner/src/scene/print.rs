@@ -1,6 +1,6 @@
 //! A scene as an annotated scene file that reads back as the same scene.
 //!
-//! Every key of the [schema](super::schema) stands on its own line with unit and meaning.
+//! Every key of the [schema] stands on its own line with unit and meaning.
 //! A key that is not set is commented out, with the value that takes effect where there
 //! is one.
 

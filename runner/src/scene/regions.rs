@@ -1,11 +1,11 @@
 //! The regions of a scene: shapes, lattices and first velocities.
 
-use super::build::{Builder, Here, as_table, elements, numbers};
-use super::check::number;
+use super::build::{Builder, Here};
 use super::schema::{self, Section, listed};
 use super::shape::Shape;
 use super::spec::{Entry, Value};
 use super::types::{Dimension, LatticeKind, Region, RegionKind, Velocity};
+use super::values::{as_table, elements, number, numbers};
 
 /// The axes by name, for messages.
 const AXES: [&str; 3] = ["x", "y", "z"];

@@ -6,7 +6,7 @@
 //! share no particle. A tolerance of 10⁻⁹ spacings absorbs the rounding of coordinates
 //! such as 49.5 * 0.02: a node counts as lying on a face when it is that near.
 
-use super::lattice::{Index, Lattice};
+use super::lattice::{Grid, Index};
 
 /// A point or vector; z is 0 in two dimensions.
 pub type Point = [f64; 3];
@@ -72,8 +72,9 @@ pub enum Shape {
 pub(super) type Bounds = (Point, Point);
 
 impl Shape {
-    /// Whether the node `index` of `lattice` belongs to the shape.
-    pub(super) fn contains(&self, lattice: &Lattice, index: Index) -> bool {
+    /// Whether the node `index` of the grid's lattice belongs to the shape.
+    pub(super) fn contains(&self, grid: &Grid, index: Index) -> bool {
+        let lattice = &grid.lattice;
         let tolerance = TOLERANCE * lattice.spacing;
         let x = lattice.node(index);
         let axes = lattice.dimension().axes();
@@ -110,23 +111,38 @@ impl Shape {
             Self::Polygon { points } => {
                 inside_polygon(points, [x[0] + tolerance, x[1] + tolerance])
             }
-            Self::Union(shapes) => shapes.iter().any(|shape| shape.contains(lattice, index)),
+            Self::Union(shapes) => shapes.iter().any(|shape| shape.contains(grid, index)),
             Self::Difference(shapes) => match shapes.split_first() {
                 Some((first, others)) => {
-                    first.contains(lattice, index)
-                        && !others.iter().any(|shape| shape.contains(lattice, index))
+                    first.contains(grid, index)
+                        && !others.iter().any(|shape| shape.contains(grid, index))
                 }
                 None => false,
             },
             Self::Intersection(shapes) => {
-                !shapes.is_empty() && shapes.iter().all(|shape| shape.contains(lattice, index))
+                !shapes.is_empty() && shapes.iter().all(|shape| shape.contains(grid, index))
             }
             Self::Layer { around, depth } => {
-                !around.contains(lattice, index)
-                    && lattice.any_neighbour(index, layer_reach(*depth), |neighbour| {
-                        around.contains(lattice, neighbour)
+                !around.contains(grid, index)
+                    && grid.any_neighbour(index, layer_reach(*depth), |neighbour| {
+                        around.contains(grid, neighbour)
                     })
             }
+        }
+    }
+
+    /// The distances, in spacings, at which the layers of the shape look for inner nodes.
+    pub(super) fn reaches(&self) -> Vec<f64> {
+        match self {
+            Self::Union(shapes) | Self::Difference(shapes) | Self::Intersection(shapes) => {
+                shapes.iter().flat_map(Self::reaches).collect()
+            }
+            Self::Layer { around, depth } => {
+                let mut reaches = around.reaches();
+                reaches.push(layer_reach(*depth));
+                reaches
+            }
+            _ => Vec::new(),
         }
     }
 

@@ -13,7 +13,7 @@ use super::nearest::nearest;
 pub enum Source {
     /// A TOML file.
     Path(PathBuf),
-    /// A scene of the [`catalogue`], by its name.
+    /// A scene of the [`catalogue`](catalogue()), by its name.
     Catalogue(String),
     /// A text at hand.
     Text {

@@ -1,0 +1,114 @@
+//! A frame as comma-separated values (RFC 4180, with a line feed alone at the end of a line).
+//!
+//! The first line names the columns with their units; in 2D those of z are absent:
+//!
+//! ```text
+//! id,kind,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,density_kg_per_m3,pressure_Pa
+//! 0,fluid,0.01,0.01,0.0,0.0,-0.0,0.0,1000.25,4905.0
+//! 1,wall,-0.01,0.01,0.0,0.0,0.0,0.0,NaN,NaN
+//! ```
+//!
+//! Then one line per particle. `id` is a decimal integer, `kind` is `fluid` or `wall`, everything
+//! else a float in the fewest decimal digits that a correctly rounding reader turns back into the
+//! very same bits (R. Giulietti, *The Schubfach way to render doubles*, 2020): `0.1`, `-0.0`,
+//! `1e-300`, `1e+22`, `NaN`, `inf`. No field is ever quoted or empty, and the decimal separator is
+//! a point whatever the locale.
+
+use std::io::{self, Write};
+
+use super::PIECE;
+use crate::frame::Frame;
+
+/// Writes frames as CSV, one after another with the same buffer.
+#[derive(Clone, Debug, Default)]
+pub struct CsvWriter {
+    text: Vec<u8>,
+}
+
+impl CsvWriter {
+    /// A writer with an empty buffer.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Writes one whole file.
+    ///
+    /// # Errors
+    /// `InvalidInput` for a frame that does not pass [`Frame::check`]; else what `to` reports.
+    pub fn write(&mut self, frame: &Frame, mut to: impl Write) -> io::Result<()> {
+        frame.check()?;
+        let axes = frame.dimension;
+        self.text.clear();
+        self.header(axes);
+        let fluid = frame.id.iter().zip(&frame.position).zip(&frame.velocity);
+        let scalars = frame.density.iter().zip(&frame.pressure);
+        for (((id, x), v), (density, pressure)) in fluid.zip(scalars) {
+            self.row(*id, "fluid", &x[..axes], &v[..axes], *density, *pressure);
+            self.spill(&mut to)?;
+        }
+        for (id, x) in frame.wall_ids().zip(&frame.wall_position) {
+            self.row(
+                id,
+                "wall",
+                &x[..axes],
+                &[0.0; 3][..axes],
+                f64::NAN,
+                f64::NAN,
+            );
+            self.spill(&mut to)?;
+        }
+        to.write_all(&self.text)
+    }
+
+    fn header(&mut self, axes: usize) {
+        self.text.extend_from_slice(b"id,kind");
+        for names in [
+            ["x_m", "y_m", "z_m"],
+            ["vx_m_per_s", "vy_m_per_s", "vz_m_per_s"],
+        ] {
+            for name in &names[..axes] {
+                self.text.push(b',');
+                self.text.extend_from_slice(name.as_bytes());
+            }
+        }
+        self.text
+            .extend_from_slice(b",density_kg_per_m3,pressure_Pa\n");
+    }
+
+    fn row(&mut self, id: u64, kind: &str, x: &[f64], v: &[f64], density: f64, pressure: f64) {
+        self.integer(id);
+        self.text.push(b',');
+        self.text.extend_from_slice(kind.as_bytes());
+        for value in x.iter().chain(v).chain(&[density, pressure]) {
+            self.text.push(b',');
+            let mut digits = zmij::Buffer::new();
+            self.text
+                .extend_from_slice(digits.format(*value).as_bytes());
+        }
+        self.text.push(b'\n');
+    }
+
+    /// Appends an integer in decimal.
+    fn integer(&mut self, mut value: u64) {
+        let mut digits = [0; 20]; // of u64::MAX
+        let mut first = digits.len();
+        loop {
+            first -= 1;
+            digits[first] = b'0' + (value % 10) as u8;
+            value /= 10;
+            if value == 0 {
+                break;
+            }
+        }
+        self.text.extend_from_slice(&digits[first..]);
+    }
+
+    /// Hands a full buffer on.
+    fn spill(&mut self, to: &mut impl Write) -> io::Result<()> {
+        if self.text.len() >= PIECE {
+            to.write_all(&self.text)?;
+            self.text.clear();
+        }
+        Ok(())
+    }
+}

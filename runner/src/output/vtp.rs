@@ -1,0 +1,234 @@
+//! A frame as VTK XML PolyData: what ParaView, VisIt, PyVista and meshio open.
+//!
+//! The format is that of *VTK XML File Formats* (VTK User's Guide; docs.vtk.org), version 1.0 with
+//! 64-bit headers, uncompressed, appended data in base64. The file is ASCII and well-formed
+//! XML throughout:
+//!
+//! ```text
+//! <?xml version="1.0"?>
+//! <VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+//!   <PolyData>
+//!     <FieldData>                  one value each:
+//!       TimeValue      Float64     Frame::elapsed, s (the name by which VTK knows a file's time)
+//!       time           Float64     Frame::time, s
+//!       step           UInt64      Frame::step
+//!       way_back       UInt8       0 on the way out, 1 on the way back
+//!       particle_mass  Float64     kg
+//!     <Piece NumberOfPoints=".." NumberOfVerts="..">    one vertex cell per particle
+//!       <PointData>                one tuple per particle, fluid first, then walls:
+//!         id           Int64
+//!         kind         UInt8       0 fluid, 1 wall
+//!         velocity     Float64 x3  m/s
+//!         density      Float64     kg/m³
+//!         pressure     Float64     Pa
+//!       <Points>
+//!         position     Float64 x3  m
+//!       <Verts>
+//!         connectivity Int64       0, 1, 2, ..: cell i is point i
+//!         offsets      Int64       1, 2, 3, ..: where cell i ends in `connectivity`
+//!   <AppendedData encoding="base64">_...
+//! ```
+//!
+//! Each array is an element `<DataArray type name NumberOfComponents format="appended" offset>`
+//! with no content. Its bytes stand in `AppendedData` in the order of the table: `offset`
+//! characters after the underscore begins the base64 text (RFC 4648 §4, padded) of
+//!
+//! | bytes | value                                             |
+//! |-------|---------------------------------------------------|
+//! | 8     | n, the number of bytes that follow; little-endian |
+//! | n     | the array, little-endian, tuple after tuple       |
+//!
+//! and takes 4⌈(8 + n)/3⌉ characters.
+
+use std::io::{self, Write};
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+use super::{Kind, PIECE};
+use crate::frame::Frame;
+
+/// An array of the file.
+struct Array {
+    name: &'static str,
+    /// VTK's name of the type of its numbers.
+    number: &'static str,
+    /// Size of a tuple in bytes.
+    tuple_bytes: usize,
+    /// Numbers per tuple.
+    components: usize,
+    /// Appends its bytes.
+    fill: fn(&Frame, &mut Vec<u8>),
+}
+
+const fn array(
+    name: &'static str,
+    number: &'static str,
+    tuple_bytes: usize,
+    components: usize,
+    fill: fn(&Frame, &mut Vec<u8>),
+) -> Array {
+    Array {
+        name,
+        number,
+        tuple_bytes,
+        components,
+        fill,
+    }
+}
+
+const FIELD_DATA: [Array; 5] = [
+    array("TimeValue", "Float64", 8, 1, |frame, raw| {
+        raw.extend_from_slice(&frame.elapsed.to_le_bytes());
+    }),
+    array("time", "Float64", 8, 1, |frame, raw| {
+        raw.extend_from_slice(&frame.time.to_le_bytes());
+    }),
+    array("step", "UInt64", 8, 1, |frame, raw| {
+        raw.extend_from_slice(&frame.step.to_le_bytes());
+    }),
+    array("way_back", "UInt8", 1, 1, |frame, raw| {
+        raw.push(frame.way_back.into());
+    }),
+    array("particle_mass", "Float64", 8, 1, |frame, raw| {
+        raw.extend_from_slice(&frame.particle_mass.to_le_bytes());
+    }),
+];
+
+const POINT_DATA: [Array; 5] = [
+    array("id", "Int64", 8, 1, |frame, raw| {
+        let ids = frame.id.iter().copied().chain(frame.wall_ids());
+        ids.for_each(|id| raw.extend_from_slice(&id.to_le_bytes()));
+    }),
+    array("kind", "UInt8", 1, 1, |frame, raw| {
+        raw.resize(raw.len() + frame.id.len(), Kind::Fluid as u8);
+        raw.resize(raw.len() + frame.wall_position.len(), Kind::Wall as u8);
+    }),
+    array("velocity", "Float64", 24, 3, |frame, raw| {
+        vectors(&frame.velocity, raw);
+        raw.resize(raw.len() + 24 * frame.wall_position.len(), 0); // the bytes of 0.0
+    }),
+    array("density", "Float64", 8, 1, |frame, raw| {
+        fluid_scalars(&frame.density, frame, raw);
+    }),
+    array("pressure", "Float64", 8, 1, |frame, raw| {
+        fluid_scalars(&frame.pressure, frame, raw);
+    }),
+];
+
+const POINTS: [Array; 1] = [array("position", "Float64", 24, 3, |frame, raw| {
+    vectors(&frame.position, raw);
+    vectors(&frame.wall_position, raw);
+})];
+
+const VERTS: [Array; 2] = [
+    array("connectivity", "Int64", 8, 1, |frame, raw| {
+        (0..frame.particles() as u64).for_each(|i| raw.extend_from_slice(&i.to_le_bytes()));
+    }),
+    array("offsets", "Int64", 8, 1, |frame, raw| {
+        (1..=frame.particles() as u64).for_each(|i| raw.extend_from_slice(&i.to_le_bytes()));
+    }),
+];
+
+fn vectors(values: &[[f64; 3]], raw: &mut Vec<u8>) {
+    for value in values.as_flattened() {
+        raw.extend_from_slice(&value.to_le_bytes());
+    }
+}
+
+fn fluid_scalars(values: &[f64], frame: &Frame, raw: &mut Vec<u8>) {
+    for value in values {
+        raw.extend_from_slice(&value.to_le_bytes());
+    }
+    for _ in &frame.wall_position {
+        raw.extend_from_slice(&f64::NAN.to_le_bytes());
+    }
+}
+
+/// Writes frames as VTP, one after another with the same buffers.
+#[derive(Clone, Debug, Default)]
+pub struct VtpWriter {
+    raw: Vec<u8>,
+    text: Vec<u8>,
+}
+
+impl VtpWriter {
+    /// A writer with empty buffers.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Writes one whole file.
+    ///
+    /// # Errors
+    /// `InvalidInput` for a frame that does not pass [`Frame::check`]; else what `to` reports.
+    pub fn write(&mut self, frame: &Frame, mut to: impl Write) -> io::Result<()> {
+        frame.check()?;
+        self.text.clear();
+        header(frame.particles(), &mut self.text)?;
+        to.write_all(&self.text)?;
+        let arrays = FIELD_DATA.iter().chain(&POINT_DATA);
+        for array in arrays.chain(&POINTS).chain(&VERTS) {
+            self.append(array, frame, &mut to)?;
+        }
+        to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
+    }
+
+    /// Writes the base64 text of an array.
+    fn append(&mut self, array: &Array, frame: &Frame, to: &mut impl Write) -> io::Result<()> {
+        const LENGTH: usize = size_of::<u64>();
+        self.raw.clear();
+        self.raw.resize(LENGTH, 0);
+        (array.fill)(frame, &mut self.raw);
+        let length = (self.raw.len() - LENGTH) as u64;
+        self.raw[..LENGTH].copy_from_slice(&length.to_le_bytes());
+        self.text.resize(PIECE, 0);
+        // Every piece but the last is a multiple of three bytes, so padding stands only at the end.
+        for piece in self.raw.chunks(PIECE / 4 * 3) {
+            let written = STANDARD.encode_slice(piece, &mut self.text);
+            to.write_all(&self.text[..written.map_err(io::Error::other)?])?;
+        }
+        Ok(())
+    }
+}
+
+/// Everything before the appended data.
+fn header(particles: usize, text: &mut Vec<u8>) -> io::Result<()> {
+    let mut offset = 0_u64;
+    let mut section =
+        |text: &mut Vec<u8>, indent: &str, tag: &str, arrays: &[Array], tuples: usize| {
+            let name = tag.split(' ').next().unwrap_or(tag);
+            writeln!(text, "{indent}<{tag}>")?;
+            for array in arrays {
+                // Field data are not per point or cell: VTK takes their number from here.
+                let count = match name {
+                    "FieldData" => " NumberOfTuples=\"1\"",
+                    _ => "",
+                };
+                writeln!(
+                    text,
+                    "{indent}  <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{count} \
+                 format=\"appended\" offset=\"{offset}\"/>",
+                    array.number, array.name, array.components,
+                )?;
+                offset += (8 + array.tuple_bytes as u64 * tuples as u64).div_ceil(3) * 4;
+            }
+            writeln!(text, "{indent}</{name}>")
+        };
+    text.write_all(
+        b"<?xml version=\"1.0\"?>\n\
+          <VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
+          header_type=\"UInt64\">\n  <PolyData>\n",
+    )?;
+    section(text, "    ", "FieldData", &FIELD_DATA, 1)?;
+    writeln!(
+        text,
+        "    <Piece NumberOfPoints=\"{particles}\" NumberOfVerts=\"{particles}\" \
+         NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
+    )?;
+    let point_data = "PointData Scalars=\"pressure\" Vectors=\"velocity\"";
+    section(text, "      ", point_data, &POINT_DATA, particles)?;
+    section(text, "      ", "Points", &POINTS, particles)?;
+    section(text, "      ", "Verts", &VERTS, particles)?;
+    text.write_all(b"    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"base64\">\n    _")
+}

@@ -1,0 +1,70 @@
+//! Frames as CSV.
+
+use loschmidt_runner::frame::Frame;
+use loschmidt_runner::output::particles_csv::CsvWriter;
+
+use crate::made::{bits, frames, particles};
+
+pub fn csv(frame: &Frame) -> String {
+    let mut bytes = Vec::new();
+    CsvWriter::new().write(frame, &mut bytes).unwrap();
+    String::from_utf8(bytes).unwrap()
+}
+
+#[test]
+fn csv_parses_back_to_the_same_bits() {
+    for frame in frames() {
+        let text = csv(&frame);
+        assert!(text.ends_with('\n'));
+        let mut lines = text.lines();
+        let header = lines.next().unwrap();
+        assert_eq!(
+            header,
+            match frame.dimension {
+                2 => "id,kind,x_m,y_m,vx_m_per_s,vy_m_per_s,density_kg_per_m3,pressure_Pa",
+                _ =>
+                    "id,kind,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,density_kg_per_m3,pressure_Pa",
+            }
+        );
+        let read: Vec<_> = lines
+            .map(|line| {
+                let fields: Vec<&str> = line.split(',').collect();
+                assert_eq!(fields.len(), header.split(',').count());
+                let id = fields[0].parse().unwrap();
+                let wall = match fields[1] {
+                    "fluid" => false,
+                    "wall" => true,
+                    other => panic!("kind {other}"),
+                };
+                let mut values: Vec<f64> = fields[2..].iter().map(|f| f.parse().unwrap()).collect();
+                if frame.dimension == 2 {
+                    values.insert(2, 0.0);
+                    values.insert(5, 0.0);
+                }
+                (id, wall, bits(&values))
+            })
+            .collect();
+        assert_eq!(read, particles(&frame));
+    }
+}
+
+#[test]
+fn csv_of_a_small_frame_reads_like_this() {
+    let frame = Frame {
+        dimension: 2,
+        id: vec![0, 12],
+        position: vec![[0.01, 1e-300, 0.0], [1e22, -0.0, 0.0]],
+        velocity: vec![[0.0, -9.81, 0.0], [1.5, f64::INFINITY, 0.0]],
+        density: vec![1000.0, 1000.25],
+        pressure: vec![4905.0, -0.1],
+        wall_position: vec![[-0.01, 0.3, 0.0]],
+        ..Frame::default()
+    };
+    let expected = "\
+id,kind,x_m,y_m,vx_m_per_s,vy_m_per_s,density_kg_per_m3,pressure_Pa
+0,fluid,0.01,1e-300,0.0,-9.81,1000.0,4905.0
+12,fluid,1e+22,-0.0,1.5,inf,1000.25,-0.1
+13,wall,-0.01,0.3,0.0,0.0,NaN,NaN
+";
+    assert_eq!(csv(&frame), expected);
+}

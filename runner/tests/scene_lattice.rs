@@ -1,0 +1,263 @@
+//! Lattices: how many particles a shape holds, where they lie, and that none is there twice.
+
+use loschmidt_runner::scene::{InitialState, Scene, SceneError, Source, load};
+use proptest::prelude::*;
+
+fn read(text: &str) -> Scene {
+    let source = Source::Text {
+        name: "shape.toml".to_owned(),
+        text: text.to_owned(),
+    };
+    load(&source, &[]).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn with_regions(spacing: f64, dimension: u32, regions: &str) -> Scene {
+    read(&format!(
+        "particle_spacing = {spacing:?}\nturnaround = 1.0\ndimension = {dimension}\nwall_model = \"dummy\"\nfluid.sound_speed = 10.0\n{regions}"
+    ))
+}
+
+fn fluid(spacing: f64, shape: &str) -> InitialState {
+    with_regions(
+        spacing,
+        2,
+        &format!("[[region]]\nkind = \"fluid\"\nshape = {shape}\n"),
+    )
+    .initial_state()
+    .unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn shapes_that_share_a_face_share_no_particle_and_leave_no_gap() {
+    let spacing = 0.02;
+    let whole = fluid(spacing, "{ rectangle = { min = [0, 0], max = [1, 1] } }");
+    let halves = [
+        (
+            "{ rectangle = { min = [0, 0], max = [0.37, 1] } }",
+            "{ rectangle = { min = [0.37, 0], max = [1, 1] } }",
+        ),
+        (
+            "{ polygon = { points = [[0, 0], [1, 0], [0.31, 1], [0, 1]] } }",
+            "{ polygon = { points = [[1, 0], [1, 1], [0.31, 1]] } }",
+        ),
+        (
+            "{ circle = { centre = [0.5, 0.5], radius = 0.3 } }",
+            "{ difference = [{ rectangle = { min = [0, 0], max = [1, 1] } }, { circle = { centre = [0.5, 0.5], radius = 0.3 } }] }",
+        ),
+        (
+            "{ circle = { centre = [0.5, 0.5], radius = 0.3 } }",
+            "{ union = [{ annulus = { centre = [0.5, 0.5], inner = 0.3, outer = 0.4 } }, { difference = [{ rectangle = { min = [0, 0], max = [1, 1] } }, { circle = { centre = [0.5, 0.5], radius = 0.4 } }] }] }",
+        ),
+    ];
+    let frame = "{ rectangle = { min = [0, 0], max = [1, 1] } }";
+    for (a, b) in halves {
+        // What is left of the whole without a shape lies on the lattice of the whole.
+        let without = |shape: &str| {
+            let rest = format!("{{ difference = [{frame}, {shape}] }}");
+            fluid(spacing, &rest).fluid.len()
+        };
+        let sum = 2 * whole.fluid.len() - without(a) - without(b);
+        assert_eq!(sum, whole.fluid.len(), "{a} and {b} overlap or leave a gap");
+
+        let gap = format!("shape.difference = [{frame}, {a}, {b}]");
+        let scene = with_regions(
+            spacing,
+            2,
+            &format!("[[region]]\nkind = \"fluid\"\n{gap}\n"),
+        );
+        let outcome = scene.initial_state();
+        assert!(
+            matches!(outcome, Err(SceneError::NoFluid { .. })),
+            "{a} and {b} leave a gap"
+        );
+    }
+}
+
+#[test]
+fn a_drop_on_the_lattice_is_symmetric_about_its_centre() {
+    let state = fluid(0.02, "{ circle = { centre = [0, 0], radius = 0.5 } }");
+    let count = |test: fn(&[f64; 3]) -> bool| state.fluid.iter().filter(|p| test(p)).count();
+    assert_eq!(count(|p| p[0] < 0.0), count(|p| p[0] > 0.0));
+    assert_eq!(count(|p| p[1] < 0.0), count(|p| p[1] > 0.0));
+    assert_eq!(count(|p| p[0] < p[1]), count(|p| p[0] > p[1]));
+}
+
+#[test]
+fn a_hexagonal_lattice_has_six_nearest_neighbours_and_the_area_of_the_square_one() {
+    let state = with_regions(
+        0.02,
+        2,
+        "[[region]]\nkind = \"fluid\"\nlattice = \"hexagonal\"\nshape.rectangle = { min = [0, 0], max = [2, 2] }\n",
+    )
+    .initial_state()
+    .expect("a state");
+    let count = state.fluid.len() as f64;
+    assert!((count / 10_000.0 - 1.0).abs() < 0.02, "{count}");
+    let middle = state.fluid[state.fluid.len() / 2 + 20];
+    let nearest = 0.02 * (2.0 / 3.0_f64.sqrt()).sqrt();
+    let distances = state.fluid.iter().map(|p| {
+        let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
+        (x * x + y * y).sqrt()
+    });
+    let neighbours = distances.filter(|d| (d / nearest - 1.0).abs() < 1e-9);
+    assert_eq!(neighbours.count(), 6);
+}
+
+#[test]
+fn walls_continue_the_lattice_of_the_first_fluid_region() {
+    for lattice in ["square", "hexagonal"] {
+        let state = with_regions(
+            0.1,
+            2,
+            &format!(
+                "[[region]]\nkind = \"wall\"\nshape.layer = {{ around = {{ rectangle = {{ min = [0.5, 0.2], max = [3.0, 2.0] }} }}, depth = 1.5 }}\n[[region]]\nkind = \"fluid\"\nlattice = \"{lattice}\"\nshape.rectangle = {{ min = [0.52, 0.2], max = [1.5, 1.0] }}\n"
+            ),
+        )
+        .initial_state()
+        .expect("a state");
+        // Every wall particle lies a whole number of pitches from particle 0 of the fluid.
+        let origin = state.fluid[0];
+        let row = state.fluid.iter().find(|p| p[1] > origin[1]).expect("rows")[1] - origin[1];
+        let pitch = state.fluid[1][0] - origin[0];
+        for p in &state.wall {
+            let rows = (p[1] - origin[1]) / row;
+            let shift = if lattice == "hexagonal" && rows.round() as i64 % 2 != 0 {
+                0.5
+            } else {
+                0.0
+            };
+            let columns = (p[0] - origin[0]) / pitch - shift;
+            assert!((rows - rows.round()).abs() < 1e-9, "{lattice}: {p:?}");
+            assert!((columns - columns.round()).abs() < 1e-9, "{lattice}: {p:?}");
+        }
+        assert!(!state.wall.is_empty());
+    }
+}
+
+#[test]
+fn overlapping_regions_are_refused_even_when_their_lattices_differ_by_rounding() {
+    let scene = with_regions(
+        0.02,
+        2,
+        "[[region]]\nkind = \"fluid\"\nshape.rectangle = { min = [0, 0], max = [1, 1] }\n[[region]]\nkind = \"fluid\"\nshape.rectangle = { min = [0.7, 0.1], max = [1.7, 0.9] }\n",
+    );
+    match scene.initial_state() {
+        Err(SceneError::Coincident {
+            first,
+            second,
+            point,
+            ..
+        }) => {
+            assert_eq!((first.0, second.0), (0, 1));
+            assert_eq!(point.len(), 2);
+            assert!((point[0] - 0.71).abs() < 1e-9 && (point[1] - 0.11).abs() < 1e-9);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_scene_too_large_for_its_numbers_is_refused_at_once() {
+    let huge = with_regions(
+        1e-6,
+        2,
+        "[[region]]\nkind = \"fluid\"\nshape.rectangle = { min = [0, 0], max = [0.9, 0.9] }\n",
+    );
+    let (fluid, _) = huge.estimated_particles();
+    assert!((fluid as f64 / 0.81e12 - 1.0).abs() < 0.01, "{fluid}");
+    assert!(matches!(
+        huge.initial_state(),
+        Err(SceneError::TooManyParticles { .. })
+    ));
+}
+
+#[test]
+fn a_wall_at_the_end_of_the_numbers_is_estimated_and_refused() {
+    for x in ["1e30", "-1e300"] {
+        let scene = with_regions(
+            0.1,
+            2,
+            &format!(
+                "[[region]]\nkind = \"fluid\"\nshape.circle = {{ centre = [0, 0], radius = 1 }}\n[[region]]\nkind = \"wall\"\nshape.layer = {{ around = {{ circle = {{ centre = [{x}, 0], radius = 1 }} }}, depth = 2.5 }}\n"
+            ),
+        );
+        assert_eq!(scene.estimated_particles().0, 316);
+        let outcome = scene.initial_state();
+        assert!(matches!(outcome, Err(SceneError::TooFar { region: 1, .. })));
+    }
+}
+
+#[test]
+fn a_shape_scattered_over_too_many_nodes_is_refused_at_once() {
+    let drop = |x: &str| format!("{{ circle = {{ centre = [{x}, {x}], radius = 1 }} }}");
+    let union = format!("[{}, {}]", drop("-50000"), drop("50000"));
+    let scene = with_regions(
+        0.1,
+        2,
+        &format!("[[region]]\nkind = \"fluid\"\nshape.union = {union}\n"),
+    );
+    let outcome = scene.initial_state();
+    assert!(matches!(
+        outcome,
+        Err(SceneError::TooSparse { region: 0, .. })
+    ));
+}
+
+#[test]
+fn a_box_in_space_is_walled_on_every_side() {
+    let state = with_regions(
+        0.1,
+        3,
+        "[[region]]\nkind = \"fluid\"\nshape.box = { min = [0, 0, 0], max = [0.5, 0.4, 0.3] }\n[[region]]\nkind = \"wall\"\nshape.layer = { around = { box = { min = [0, 0, 0], max = [0.5, 0.4, 0.3] } }, depth = 0.5 }\n",
+    )
+    .initial_state()
+    .expect("a state");
+    assert_eq!(state.fluid.len(), 5 * 4 * 3);
+    assert_eq!(state.wall.len(), 2 * (5 * 4 + 4 * 3 + 5 * 3));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn a_rectangle_of_whole_spacings_holds_exactly_their_product(
+        columns in 1..60_usize,
+        rows in 1..60_usize,
+        left in -30..30_i32,
+        spacing in prop_oneof![Just(0.02), Just(0.005), Just(0.04), Just(0.1), 1e-3..1.0_f64],
+    ) {
+        let left = f64::from(left) * 0.1;
+        let right = left + columns as f64 * spacing;
+        let top = rows as f64 * spacing;
+        let shape = format!("{{ rectangle = {{ min = [{left:?}, 0.0], max = [{right:?}, {top:?}] }} }}");
+        prop_assert_eq!(fluid(spacing, &shape).fluid.len(), columns * rows);
+    }
+
+    #[test]
+    fn the_number_of_particles_is_the_area_up_to_the_rim(
+        a in 0.2..1.0_f64,
+        b in 0.2..1.0_f64,
+        x in -1.0..1.0_f64,
+        spacing in 0.01..0.03_f64,
+    ) {
+        let shape = format!("{{ ellipse = {{ centre = [{x:?}, 0.3], axes = [{a:?}, {b:?}] }} }}");
+        let count = fluid(spacing, &shape).fluid.len() as f64;
+        let area = std::f64::consts::PI * a * b / (spacing * spacing);
+        let rim = 8.0 * a.max(b) / spacing;
+        prop_assert!((count - area).abs() < rim, "{} {}", count, area);
+    }
+
+    #[test]
+    fn the_estimate_is_the_count_of_a_small_scene(
+        radius in 0.2..1.0_f64,
+        depth in 0.5..3.0_f64,
+        spacing in 0.03..0.1_f64,
+    ) {
+        let scene = with_regions(spacing, 2, &format!(
+            "[[region]]\nkind = \"fluid\"\nshape.circle = {{ centre = [0, 0], radius = {radius:?} }}\n[[region]]\nkind = \"wall\"\nshape.layer = {{ around = {{ circle = {{ centre = [0, 0], radius = {radius:?} }} }}, depth = {depth:?} }}\n"
+        ));
+        let state = scene.initial_state().expect("a state");
+        let counts = (state.fluid.len() as u64, state.wall.len() as u64);
+        prop_assert_eq!(scene.estimated_particles(), counts);
+    }
+}

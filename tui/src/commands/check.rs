@@ -1,0 +1,86 @@
+//! `check`: what a scene takes, without running it.
+
+use super::print;
+use crate::cli::SceneArguments;
+use crate::exit::{Failure, USAGE};
+use crate::progress::duration;
+use loschmidt_runner::run::Plan;
+use loschmidt_runner::scene::{load, resolve};
+use loschmidt_runner::setup::{self, Limits};
+use loschmidt_runner::{Options, Player};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Steps are tried for about this long to estimate the time of a run.
+const TRIAL: Duration = Duration::from_millis(500);
+
+/// Tells what a scene takes.
+pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
+    let scene = load(&resolve(&arguments.scene)?, &arguments.set)?;
+    let needed = setup::estimated_bytes(&scene);
+    setup::check_memory(&scene).map_err(loschmidt_runner::RunError::from)?;
+    let initial = scene.initial_state()?;
+    let (fluid, walls) = (initial.fluid.len(), initial.wall.len());
+    let plan = Plan::of(&scene);
+    let dt = scene.time_step();
+    let options = Options::default();
+    let mut player = Player::new(scene, initial, options)
+        .map_err(|error| Failure::new(USAGE, format!("error: {error}")))?;
+    let limits = Limits::of(&mut player)
+        .map_err(|fault| Failure::new(crate::exit::RANGE, format!("error: {fault}")))?;
+    let pace = pace(&mut player)?;
+
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
+    line("scene", player.scene().name.clone());
+    line("particles", format!("{fluid} fluid, {walls} wall"));
+    let legs = match plan.back {
+        0 => "one way".to_owned(),
+        back => format!("{} out and {back} back", plan.out),
+    };
+    line("steps", format!("{} ({legs})", plan.total()));
+    line("memory", format!("about {} MiB", needed.div_ceil(1 << 20)));
+    line(
+        "time",
+        format!(
+            "about {} on {} threads; up to twice that once the particles are disordered",
+            duration(pace * plan.total() as f64),
+            player.threads()
+        ),
+    );
+    line("time step", format!("{dt:.4e} s"));
+    for (name, limit, rule) in [
+        ("  acoustic limit", Some(limits.acoustic), "0.4 h/c"),
+        (
+            "  force limit",
+            limits.force,
+            "0.25 sqrt(h/a), a the largest acceleration at the start",
+        ),
+        (
+            "  wall limit",
+            limits.wall,
+            "0.5 r_wall/sqrt(2 E), a quarter of the stability limit of the contact",
+        ),
+    ] {
+        let verdict = match limit {
+            None => "none".to_owned(),
+            Some(limit) if dt <= limit => format!("{limit:.4e} s, kept ({rule})"),
+            Some(limit) => format!("{limit:.4e} s, EXCEEDED ({rule})"),
+        };
+        line(name, verdict);
+    }
+    print(&text)
+}
+
+/// Seconds per step, tried from the initial state.
+fn pace(player: &mut Player) -> Result<f64, Failure> {
+    let began = Instant::now();
+    let mut steps = 0;
+    while steps < 2 || (began.elapsed() < TRIAL && steps < 1000) {
+        player
+            .advance(1)
+            .map_err(|fault| Failure::new(crate::exit::RANGE, format!("error: {fault}")))?;
+        steps += 1;
+    }
+    Ok(began.elapsed().as_secs_f64() / steps as f64)
+}

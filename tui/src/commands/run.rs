@@ -1,0 +1,92 @@
+//! `run` and `resume`.
+
+use super::print;
+use crate::cli::{ResumeArguments, RunArguments, WorkArguments};
+use crate::exit::{Failure, NOT_EXACT};
+use crate::progress::Display;
+use crate::report;
+use loschmidt_runner::output::{Manifest, free_directory};
+use loschmidt_runner::scene;
+use loschmidt_runner::{ExecutorKind, Options, Run};
+use signal_hook::consts::{SIGINT, SIGTERM};
+use std::num::NonZeroUsize;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Runs a scene.
+pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
+    let stop = stop_flag()?;
+    let source = scene::resolve(&arguments.scene.scene)?;
+    let scene = scene::load(&source, &arguments.scene.set)?;
+    let options = arguments.work.options(Options {
+        arithmetic: arguments.arithmetic.into(),
+        ..Options::default()
+    });
+    let out = match &arguments.out {
+        Some(out) => out.clone(),
+        None => free_directory(&scene.name),
+    };
+    let run = Run::start(scene, options, Some((&out, arguments.force)))?;
+    execute(run, &arguments.work, &stop)
+}
+
+/// Goes on with a run.
+pub fn resume(arguments: &ResumeArguments) -> Result<ExitCode, Failure> {
+    let stop = stop_flag()?;
+    let work = &arguments.work;
+    let run = Run::resume(&arguments.run, |manifest| work.options(earlier(manifest)))?;
+    execute(run, work, &stop)
+}
+
+/// The options of the earlier part of a run.
+fn earlier(manifest: &Manifest) -> Options {
+    let default = Options::default();
+    Options {
+        executor: if manifest.executor == ExecutorKind::Serial.name() {
+            ExecutorKind::Serial
+        } else {
+            default.executor
+        },
+        threads: NonZeroUsize::new(manifest.threads).unwrap_or(default.threads),
+        ..default
+    }
+}
+
+fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<ExitCode, Failure> {
+    let (done, total) = (run.player().steps_taken(), run.plan().total());
+    let mut display = Display::new(work.quiet, done, total);
+    let result = run.execute(|progress| display.show(progress), stop);
+    display.finish();
+    let outcome = result?;
+    let text = if work.json {
+        // Shortest digits that read back to the same number; no NaN or infinity can occur in it.
+        serde_json::to_string(&outcome).map_err(std::io::Error::from)? + "\n"
+    } else {
+        let mut text = String::new();
+        if !work.quiet {
+            text += &format!("{}\n", report::table(&outcome, run.rows()));
+            if let Some(path) = run.path() {
+                text += &format!("written to              {}\n", path.display());
+            }
+            text += "\n";
+        }
+        text + &report::sentence(&outcome) + "\n"
+    };
+    print(&text)?;
+    Ok(match outcome.reversed_exactly {
+        Some(false) => ExitCode::from(NOT_EXACT),
+        Some(true) | None => ExitCode::SUCCESS,
+    })
+}
+
+/// A flag that SIGINT and SIGTERM set; the second of them ends the program at once.
+fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        let code = i32::from(crate::exit::INTERRUPTED);
+        signal_hook::flag::register_conditional_shutdown(signal, code, Arc::clone(&stop))?;
+        signal_hook::flag::register(signal, Arc::clone(&stop))?;
+    }
+    Ok(stop)
+}

@@ -1,0 +1,104 @@
+//! Exit codes and the last words of a failure.
+
+use loschmidt_runner::RunError;
+use loschmidt_runner::output::{OutputError, SnapshotError};
+use loschmidt_runner::scene::SceneError;
+use std::process::ExitCode;
+
+/// The run did not return exactly.
+pub const NOT_EXACT: u8 = 1;
+/// Usage or scene.
+pub const USAGE: u8 = 2;
+/// Output.
+pub const OUTPUT: u8 = 3;
+/// The run left the number range.
+pub const RANGE: u8 = 4;
+/// A signal came.
+pub const INTERRUPTED: u8 = 130;
+
+/// What goes to standard error, and the code to leave with.
+#[derive(Debug)]
+pub struct Failure {
+    code: u8,
+    message: String,
+}
+
+impl Failure {
+    pub fn new(code: u8, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            message: message.into(),
+        }
+    }
+
+    /// Prints the message.
+    pub fn report(self) -> ExitCode {
+        eprintln!("{}", self.message.trim_end());
+        ExitCode::from(self.code)
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        // These messages are complete, with their own "error:".
+        Self::new(USAGE, error.to_string())
+    }
+}
+
+impl From<SnapshotError> for Failure {
+    fn from(error: SnapshotError) -> Self {
+        Self::new(USAGE, format!("error: {error}"))
+    }
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        Self::new(OUTPUT, format!("error: cannot write the result: {error}"))
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Scene(error) => error.into(),
+            RunError::Output(error) => {
+                let code = match error {
+                    OutputError::NotARun { .. } | OutputError::Snapshot(_) => USAGE,
+                    OutputError::Exists(_) | OutputError::Io { .. } => OUTPUT,
+                };
+                Self::new(code, format!("error: {error}"))
+            }
+            RunError::Memory(_)
+            | RunError::Build(_)
+            | RunError::Ended { .. }
+            | RunError::ForeignSnapshot(_)
+            | RunError::NoRows => Self::new(USAGE, format!("error: {error}")),
+            RunError::Fault { ref snapshot, .. } => {
+                let mut message = format!("error: {error}");
+                if let Some(path) = snapshot {
+                    message += &format!("\nthe last good state is in {}", path.display());
+                }
+                Self::new(RANGE, message)
+            }
+            RunError::NotRepeatable(_) => Self::new(RANGE, format!("error: {error}")),
+            RunError::Interrupted { ref path, .. } => {
+                let mut message = error.to_string();
+                if let Some(path) = path {
+                    message += &format!("; resume with\n    loschmidt resume {}", quote(path));
+                }
+                Self::new(INTERRUPTED, message)
+            }
+        }
+    }
+}
+
+/// A path as a shell takes it.
+fn quote(path: &std::path::Path) -> String {
+    let text = path.display().to_string();
+    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@,=".contains(c);
+    if text.chars().all(plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
+}

@@ -1,0 +1,113 @@
+//! Progress on standard error: a bar on a terminal, a line now and then elsewhere.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use loschmidt_runner::run::Progress;
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// Between two plain lines at least.
+const PAUSE: Duration = Duration::from_secs(10);
+
+/// Shows how far a run has come.
+pub enum Display {
+    /// Nothing.
+    Quiet,
+    /// A bar.
+    Bar(ProgressBar),
+    /// Lines.
+    Lines {
+        /// When and at which step this process began.
+        began: Option<(Instant, u64)>,
+        /// When the last line was printed.
+        last: Option<Instant>,
+    },
+}
+
+impl Display {
+    pub fn new(quiet: bool, done: u64, total: u64) -> Self {
+        if quiet {
+            return Self::Quiet;
+        }
+        if !std::io::stderr().is_terminal() {
+            return Self::Lines {
+                began: None,
+                last: None,
+            };
+        }
+        let bar =
+            ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(10));
+        let template = "{prefix:>4} {wide_bar} {percent:>3} %  step {pos}/{len}  {eta} left\n{msg}";
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style.progress_chars("█▉▊▋▌▍▎▏ "));
+        }
+        bar.set_position(done);
+        bar.reset_eta();
+        Self::Bar(bar)
+    }
+
+    pub fn show(&mut self, progress: &Progress<'_>) {
+        match self {
+            Self::Quiet => {}
+            Self::Bar(bar) => {
+                bar.set_prefix(if progress.way_back { "back" } else { "out" });
+                bar.set_message(energies(progress));
+                bar.set_position(progress.step);
+            }
+            Self::Lines { began, last } => {
+                let now = Instant::now();
+                let (start, first) = *began.get_or_insert((now, progress.step));
+                let finished = progress.step == progress.total;
+                if !finished && last.is_some_and(|last| now - last < PAUSE) {
+                    return;
+                }
+                *last = Some(now);
+                let done = progress.step - first;
+                let left = if done == 0 {
+                    "?".to_owned()
+                } else {
+                    let pace = (now - start).as_secs_f64() / done as f64;
+                    duration(pace * (progress.total - progress.step) as f64)
+                };
+                eprintln!(
+                    "{} step {}/{}, {left} left; {}",
+                    if progress.way_back { "back" } else { "out" },
+                    progress.step,
+                    progress.total,
+                    energies(progress)
+                );
+            }
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(self) {
+        if let Self::Bar(bar) = self {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn energies(progress: &Progress<'_>) -> String {
+    let (row, home) = (progress.row, progress.home);
+    format!(
+        "t = {:.4} s  kinetic {:.1} J  internal {:.1} J  gravitational {:.1} J  wall {:.1} J  \
+         total - initial {:+.2e} J  entropy {:.3}",
+        row.time_s,
+        row.kinetic,
+        row.internal,
+        row.gravitational,
+        row.wall,
+        row.total - home.total,
+        row.entropy
+    )
+}
+
+/// Seconds for people: 48 s, 12 min 30 s, 2 h 05 min.
+pub fn duration(seconds: f64) -> String {
+    let s = seconds.round().max(0.0) as u64;
+    match s {
+        0..60 => format!("{s} s"),
+        60..3600 => format!("{} min {:02} s", s / 60, s % 60),
+        _ => format!("{} h {:02} min", s / 3600, s % 3600 / 60),
+    }
+}

@@ -1,0 +1,81 @@
+//! What a run says at its end.
+
+use comfy_table::{CellAlignment, Table, presets::NOTHING};
+use loschmidt_runner::Outcome;
+use loschmidt_runner::run::Row;
+
+/// The table of energies, entropy and digests.
+pub fn table(outcome: &Outcome, rows: &[Row]) -> String {
+    let first = rows.first();
+    let turn = rows.iter().rev().find(|row| row.leg == 1);
+    let last = rows.last();
+    let two_way = outcome.digest.turnaround.is_some();
+    let columns: Vec<(&str, Option<&Row>)> = if two_way {
+        vec![("start", first), ("turnaround", turn), ("end", last)]
+    } else {
+        vec![("start", first), ("end", last)]
+    };
+    let mut table = Table::new();
+    table.load_preset(NOTHING);
+    table.set_header(std::iter::once("").chain(columns.iter().map(|(name, _)| *name)));
+    let mut line = |name: &str, value: &dyn Fn(&Row) -> String| {
+        let cells = columns
+            .iter()
+            .map(|(_, row)| row.map_or(String::new(), value));
+        table.add_row(std::iter::once(name.to_owned()).chain(cells));
+    };
+    line("time", &|row| format!("{:.4} s", row.time_s));
+    line("kinetic energy", &|row| joule(row.kinetic));
+    line("internal energy", &|row| joule(row.internal));
+    line("gravitational energy", &|row| joule(row.gravitational));
+    line("wall energy", &|row| joule(row.wall));
+    line("total energy", &|row| joule(row.total));
+    line("entropy", &|row| format!("{:.4}", row.entropy));
+    line("  in equilibrium", &|row| {
+        row.equilibrium_entropy_of_energy
+            .map_or("-".to_owned(), |s| format!("{s:.4}"))
+    });
+    for column in table.column_iter_mut().skip(1) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    let mut text = table.trim_fmt();
+    let error = match outcome.energy.max_error_over_released {
+        Some(error) => format!(
+            "{:.3} J, {error:.2e} of the {:.1} J released",
+            outcome.energy.max_error, outcome.energy.released
+        ),
+        None => format!("{:.3e} J; nothing was released", outcome.energy.max_error),
+    };
+    text += &format!("\n\nlargest energy error    {error}");
+    text += &format!("\ndigest at the start     {}", outcome.digest.initial);
+    if let Some(digest) = &outcome.digest.turnaround {
+        text += &format!("\ndigest, turnaround      {digest}");
+    }
+    text += &format!("\ndigest at the end       {}", outcome.digest.last);
+    text
+}
+
+fn joule(energy: f64) -> String {
+    format!("{energy:.3} J")
+}
+
+/// The sentence that says whether time came back.
+pub fn sentence(outcome: &Outcome) -> String {
+    let steps = outcome.steps;
+    match outcome.reversed_exactly {
+        Some(true) => format!(
+            "Time came back: after {} steps out and {} back, every bit of the last state equals the first.",
+            steps / 2,
+            steps / 2
+        ),
+        Some(false) => format!(
+            "Time did not come back: after {} steps out and {} back, a particle is up to {:.3e} m from home.",
+            steps / 2,
+            steps / 2,
+            outcome.max_return_error_m.unwrap_or(f64::NAN)
+        ),
+        None => {
+            format!("The run ended after {steps} steps; it was not asked to come all the way back.")
+        }
+    }
+}
