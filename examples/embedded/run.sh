@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Builds the firmware for a bare Cortex-M4, runs it on an emulated board and compares every digest
-# it prints with the host's.
+# it prints with the host's; then does the same with a big-endian processor, s390x.
 #
 #   examples/embedded/run.sh
 #
 # Exit code: 0 all digests equal; 1 a build error, another digest, a fault or a timeout;
 # 77 something could not be downloaded, so nothing was tested. The last lines on standard output
-# say which: PASSED firmware ..., FAILED firmware ..., SKIPPED firmware: ...
+# say which: PASSED firmware ..., FAILED firmware ..., SKIPPED firmware: ... Where only the second
+# processor's emulator could not be downloaded, that is SKIPPED firmware s390x-unknown-linux-gnu:
+# ..., and the exit code is the first one's.
 #
 # Nothing is installed. The compiler, its library's source and the emulator are Debian packages,
 # unpacked into .firmware/ at the root of the repository (git-ignored; delete it to start afresh),
@@ -15,8 +17,11 @@
 # conflicts with rustup and the emulator with other versions of its own utilities.
 set -Eeuo pipefail
 
-readonly target=thumbv7em-none-eabihf
+readonly chip=thumbv7em-none-eabihf
+readonly mainframe=s390x-unknown-linux-gnu
 readonly emulation_limit_s=60
+# Whose verdict is being found, as the verdicts name it.
+subject=$chip
 
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
 repo=$(cd -- "$here/../.." && pwd)
@@ -31,7 +36,7 @@ export LC_ALL=C
 
 say() { printf '%s\n' "firmware: $*" >&2; }
 fail() {
-    printf '%s\n' "FAILED firmware $target $*"
+    printf '%s\n' "FAILED firmware $subject $*"
     exit 1
 }
 skip() {
@@ -96,31 +101,60 @@ library_path() {
 # workspace has moved on to a newer Rust.
 complete() {
     [[ -e $store/complete && -x $root/usr/bin/rustc && -x $root/usr/bin/qemu-system-arm ]] &&
-        [[ -z $(unmet_libraries) ]] && new_enough "$(<"$store/complete")"
+        [[ -z $(unmet_libraries rustc qemu-system-arm) ]] && new_enough "$(<"$store/complete")"
+}
+complete_mainframe() {
+    [[ -e $store/complete-s390x && -x $root/usr/bin/qemu-s390x && -z $(unmet_libraries qemu-s390x) ]]
 }
 new_enough() { # VERSION: whether that rustc-web compiles what the workspace asks for
     dpkg --compare-versions "$1" ge "$oldest_rust"
 }
-unmet_libraries() {
-    LD_LIBRARY_PATH=$(library_path) ldd "$root"/usr/bin/{rustc,qemu-system-arm} |
+unmet_libraries() { # PROGRAM...: shared libraries that the unpacked programs lack
+    local libraries
+    libraries=$(library_path)
+    (cd "$root/usr/bin" && LD_LIBRARY_PATH=$libraries ldd "${@/#/./}") |
         awk '/not found/ { print $1 }' | sort -u
 }
 
-fetch() {
-    local command version libraries
+# Package lists, once for both fetches. Sets `reason` and is false where none came.
+look_for_packages() {
+    local command
     for command in apt-get apt-cache dpkg dpkg-deb dpkg-query; do
-        command -v "$command" >/dev/null || skip "no $command here: it downloads Debian packages"
+        if ! command -v "$command" >/dev/null; then
+            reason="no $command here: it downloads Debian packages"
+            return 1
+        fi
     done
-
-    rm -rf -- "$store/complete" "$root" "$store/debs" "$store/apt"
-    mkdir -p -- "$store"/{debs,root,bin} "$store"/apt/{lists,cache/archives}/partial
+    rm -rf -- "$store/debs"
+    mkdir -p -- "$store"/{debs,root,bin}
+    compgen -G "$store/apt/lists/*_Packages*" >/dev/null && return
 
     say "looking for packages"
+    mkdir -p -- "$store"/apt/{lists,cache/archives}/partial
     # One source that does not answer need not matter: whether the packages come is what counts.
     apt-get "${apt_options[@]}" update >"$store/apt/update.log" 2>&1 || true
+    if ! compgen -G "$store/apt/lists/*_Packages*" >/dev/null; then
+        reason="apt-get update brought no package list: $(first_line '^[EW]:' "$store/apt/update.log")"
+        return 1
+    fi
+}
+first_line() { # PATTERN FILE
+    grep -m1 "$1" "$2" || echo 'no reason given'
+}
 
-    compgen -G "$store/apt/lists/*_Packages*" >/dev/null ||
-        skip "apt-get update brought no package list: $(grep -m1 '^[EW]:' "$store/apt/update.log" || echo 'no reason given')"
+download() { # PACKAGE...: into debs. Sets `reason` and is false where one did not come.
+    say "downloading $# packages"
+    if ! (cd "$store/debs" && apt-get "${apt_options[@]}" download "$@") >"$store/apt/download.log" 2>&1; then
+        reason="apt-get download failed: $(first_line '^E:' "$store/apt/download.log")"
+        return 1
+    fi
+    say "downloaded $(du -shc -- "$store"/debs/*.deb "$store/apt/lists" | awk 'END { print $1 }')B"
+}
+
+fetch() {
+    local version libraries reason
+    rm -rf -- "$store/complete" "$store/complete-s390x" "$root"
+    look_for_packages || skip "$reason"
 
     version=$(candidate rustc-web)
     [[ -n $version ]] || skip "the system's apt sources do not offer the package rustc-web"
@@ -134,10 +168,7 @@ fetch() {
     libraries=$(missing_libraries libstd-rust-web-dev qemu-system-arm)
     mapfile -t -O "${#packages[@]}" packages < <(printf '%s' "$libraries")
 
-    say "downloading ${#packages[@]} packages"
-    (cd "$store/debs" && apt-get "${apt_options[@]}" download "${packages[@]}") >"$store/apt/download.log" 2>&1 ||
-        skip "apt-get download failed: $(grep -m1 '^E:' "$store/apt/download.log" || echo 'no reason given')"
-    say "downloaded $(du -shc -- "$store"/debs/*.deb "$store/apt/lists" | awk 'END { print $1 }')B"
+    download "${packages[@]}" || skip "$reason"
 
     local deb
     for deb in "$store"/debs/*.deb; do
@@ -159,10 +190,35 @@ LD_LIBRARY_PATH=$(cat "$store/library_path")${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH
 END
     chmod +x "$store/bin/rustc"
 
-    rm -rf -- "$store/debs" "$store/apt"
     # Last, so that an interrupted run is not taken for a finished one.
     printf '%s\n' "$version" >"$store/complete"
-    complete || fail "the unpacked programs lack shared libraries: $(unmet_libraries | xargs)"
+    complete || fail "the unpacked programs lack shared libraries: $(unmet_libraries rustc qemu-system-arm | xargs)"
+}
+
+# The second processor's emulator. Sets `reason` and is false where it cannot be had.
+fetch_mainframe() {
+    local libraries packages deb
+    rm -f -- "$store/complete-s390x"
+    look_for_packages || return 1
+    if [[ -z $(candidate qemu-user) ]]; then
+        reason="the system's apt sources do not offer the package qemu-user"
+        return 1
+    fi
+    libraries=$(missing_libraries qemu-user)
+    mapfile -t packages < <(printf '%s' "$libraries")
+    download qemu-user "${packages[@]}" || return 1
+    for deb in "$store"/debs/*.deb; do
+        case ${deb##*/} in
+        # One processor of thirty.
+        qemu-user_*) dpkg-deb --fsys-tarfile "$deb" | tar -x -C "$root" ./usr/bin/qemu-s390x ;;
+        *) dpkg -x "$deb" "$root" ;;
+        esac
+    done
+    : >"$store/complete-s390x"
+    if ! complete_mainframe; then
+        subject=$mainframe
+        fail "the unpacked emulator is incomplete: $(unmet_libraries qemu-s390x | xargs)"
+    fi
 }
 
 mkdir -p -- "$store"
@@ -170,7 +226,12 @@ mkdir -p -- "$store"
 exec 9>"$store/lock"
 command -v flock >/dev/null && flock 9
 
+# Lists of an interrupted run may name what the mirror has replaced since.
+rm -rf -- "$store/debs" "$store/apt"
 complete || fetch
+mainframe_missing=
+complete_mainframe || fetch_mainframe || mainframe_missing=$reason
+rm -rf -- "$store/debs" "$store/apt"
 library_path >"$store/library_path"
 
 # --- building -------------------------------------------------------------------------------------
@@ -181,7 +242,7 @@ linker=$(rustc --print sysroot)/lib/rustlib/$host_triple/bin/rust-lld
 [[ -x $linker ]] || fail "no rust-lld in the sysroot of $(command -v rustc)"
 
 # In a subshell each, so that neither changes what the other builds with.
-firmware_cargo() (
+firmware_cargo() ( # SUBCOMMAND TARGET ARGUMENT...
     cd "$here"
     # Flags meant for the host.
     unset RUSTFLAGS CARGO_ENCODED_RUSTFLAGS CARGO_BUILD_RUSTFLAGS
@@ -189,7 +250,11 @@ firmware_cargo() (
     # A released compiler knows build-std, but lets only its own build use it unless told so.
     export RUSTC_BOOTSTRAP=1
     export CARGO_TARGET_THUMBV7EM_NONE_EABIHF_LINKER=$linker
-    cargo "$@" --locked --target "$target" -Zbuild-std=core
+    export CARGO_TARGET_S390X_UNKNOWN_LINUX_GNU_LINKER=$linker
+    # This target expects a C compiler for a linker, which would look for a C library.
+    export CARGO_TARGET_S390X_UNKNOWN_LINUX_GNU_RUSTFLAGS="-Clinker-flavor=ld.lld -Crelocation-model=static"
+    # Without a C library, memcpy and its like are those of the compiler's own library.
+    cargo "$1" --locked --target "$2" -Zbuild-std=core -Zbuild-std-features=compiler-builtins-mem "${@:3}"
 )
 host_cargo() (
     cd "$repo"
@@ -210,14 +275,20 @@ fetch_crates() {
 }
 
 say "fetching crates"
-fetch_crates firmware_cargo fetch
+fetch_crates firmware_cargo fetch "$chip"
+fetch_crates firmware_cargo fetch "$mainframe"
 fetch_crates host_cargo fetch --target "$host_triple"
 
-say "building for $target with $("$store/bin/rustc" --version)"
-firmware_cargo build --offline --release -p loschmidt-firmware --target-dir "$here/target" >&2 ||
-    fail "the firmware does not build"
-readonly elf=$here/target/$target/release/loschmidt-firmware
+build() { # TARGET PACKAGE: to target/TARGET/release/PACKAGE
+    subject=$1
+    say "building $2 with $("$store/bin/rustc" --version)"
+    firmware_cargo build "$1" --offline --release -p "$2" --target-dir "$here/target" >&2 ||
+        fail "$2 does not build"
+}
+build "$chip" loschmidt-firmware
+[[ -n $mainframe_missing ]] || build "$mainframe" loschmidt-big-endian
 
+subject=$chip
 say "building and running the host twin"
 host_cargo build --offline --quiet --release -p loschmidt-examples --example embedded_twin >&2 ||
     fail "the host twin does not build"
@@ -226,48 +297,63 @@ if ! host=$(host_cargo run --offline --quiet --release -p loschmidt-examples --e
     fail "the host twin ended with an error, or not in its first state"
 fi
 
-# --- running --------------------------------------------------------------------------------------
-
-say "emulating"
-started=$EPOCHREALTIME
-status=0
-# -nographic joins the board's serial line to standard input: give it none to read.
-chip=$(LD_LIBRARY_PATH=$(library_path) timeout "$emulation_limit_s" \
-    "$root/usr/bin/qemu-system-arm" -machine mps2-an386 -cpu cortex-m4 -nographic \
-    -semihosting-config enable=on,target=native -kernel "$elf" </dev/null) || status=$?
-elapsed=$(awk -v a="$started" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }')
-case $status in
-0) ;;
-124) fail "timeout: not done after $emulation_limit_s s" ;;
-*)
-    say "the emulated board printed:"$'\n'"$chip"
-    fail "the emulator ended with $status"
-    ;;
-esac
-
-# --- comparing ------------------------------------------------------------------------------------
+# --- running and comparing ------------------------------------------------------------------------
 
 value() { # TEXT NAME
     awk -v name="$2" '$1 == name { print $2 }' <<<"$1"
 }
 
 failures=0
-for name in digest.initial digest.turnaround digest.final; do
-    ours=$(value "$chip" "$name")
-    theirs=$(value "$host" "$name")
-    if [[ $theirs =~ ^[0-9a-f]{32}$ && $ours == "$theirs" ]]; then
-        echo "PASSED firmware $target $name $ours, the host's"
+verdict() { # PASSED|FAILED TEXT
+    printf '%s\n' "$1 firmware $subject $2"
+    [[ $1 == PASSED ]] || failures=$((failures + 1))
+}
+
+emulate() { # TARGET EMULATOR ARGUMENT...: judges what the emulated program prints
+    local started elapsed printed status=0 name ours theirs
+    subject=$1
+    say "emulating with $2"
+    started=$EPOCHREALTIME
+    # Nothing on standard input: -nographic would join it to the board's serial line.
+    printed=$(LD_LIBRARY_PATH=$(library_path) timeout "$emulation_limit_s" \
+        "$root/usr/bin/$2" "${@:3}" </dev/null) || status=$?
+    elapsed=$(awk -v a="$started" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }')
+    case $status in
+    0) ;;
+    124)
+        verdict FAILED "timeout: not done after $emulation_limit_s s"
+        return
+        ;;
+    *)
+        say "the emulated program printed:"$'\n'"$printed"
+        verdict FAILED "the emulator ended with $status"
+        return
+        ;;
+    esac
+
+    for name in digest.initial digest.turnaround digest.final; do
+        ours=$(value "$printed" "$name")
+        theirs=$(value "$host" "$name")
+        if [[ $theirs =~ ^[0-9a-f]{32}$ && $ours == "$theirs" ]]; then
+            verdict PASSED "$name $ours, the host's"
+        else
+            verdict FAILED "$name ${ours:-none}, the host's is ${theirs:-none}"
+        fi
+    done
+    # What else they print: particles, steps, the water's front.
+    if [[ $printed == "$host" ]]; then
+        verdict PASSED "$(value "$host" fluid) + $(value "$host" walls) particles, $(value "$host" steps) steps each way, emulated in $elapsed s"
     else
-        echo "FAILED firmware $target $name ${ours:-none}, the host's is ${theirs:-none}"
-        failures=$((failures + 1))
+        verdict FAILED "prints another text than the host"
+        diff <(printf '%s\n' "$host") <(printf '%s\n' "$printed") >&2 || true
     fi
-done
-# What else they print: particles and steps.
-if [[ $chip == "$host" ]]; then
-    echo "PASSED firmware $target $(value "$chip" particles) particles, $(value "$chip" steps) steps each way, emulated in $elapsed s"
+}
+
+emulate "$chip" qemu-system-arm -machine mps2-an386 -cpu cortex-m4 -nographic \
+    -semihosting-config enable=on,target=native -kernel "$here/target/$chip/release/loschmidt-firmware"
+if [[ -z $mainframe_missing ]]; then
+    emulate "$mainframe" qemu-s390x "$here/target/$mainframe/release/loschmidt-big-endian"
 else
-    echo "FAILED firmware $target prints another text than the host"
-    diff <(printf '%s\n' "$host") <(printf '%s\n' "$chip") >&2 || true
-    failures=$((failures + 1))
+    printf '%s\n' "SKIPPED firmware $mainframe: $mainframe_missing"
 fi
 exit $((failures > 0))

@@ -13,14 +13,14 @@ use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use cortex_m_semihosting::hio;
 use loschmidt_embedded_scene::Dam;
 
-/// The system passes over the stack on its way to its place, in a copy or two: the rest of the
-/// board's 4 MiB, which is the stack, must hold several.
+/// Parts of the system pass over the stack on its way to its place, at worst all of it in several
+/// copies: the rest of the board's 4 MiB, which is the stack, has room for a dozen.
 const _: () = assert!(size_of::<Option<Dam>>() < 256 * 1024);
 
 #[entry]
 fn main() -> ! {
-    // `entry` runs once and hands this out as a `&'static mut`: the system has its place at link
-    // time, and the stack only passes it there.
+    // `entry` runs once and hands this out as a `&'static mut`: the system has a place of its
+    // own, given at link time, and not on the stack.
     static mut DAM: Option<Dam> = None;
 
     match loschmidt_embedded_scene::run_in(DAM) {
