@@ -10,7 +10,7 @@ use core::arch::{asm, global_asm};
 use core::fmt::{self, Write};
 use core::panic::PanicInfo;
 
-// Linux enters with the stack pointer (r15) at argc. A caller owes the function it calls 160
+// SAFETY: Linux enters with the stack pointer (r15) at argc. A caller owes the function it calls 160
 // bytes above the stack pointer, where the latter saves registers, and a zero to end the chain of
 // frames.
 global_asm!(
@@ -68,8 +68,7 @@ fn write(descriptor: u64, bytes: &[u8]) -> i64 {
     let result;
     // SAFETY: by the kernel's convention the number is in r1, arguments are in r2 to r4, the
     // result is in r2, and no other general register changes; memory is only read, and within
-    // `bytes`. The condition code and what else may change are taken as clobbered, as is the
-    // default of `asm!`.
+    // `bytes`. The condition code may change, which `asm!` assumes unless told otherwise.
     unsafe {
         asm!(
             "svc 0",
