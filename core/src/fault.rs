@@ -39,14 +39,18 @@ pub struct Fault {
 }
 
 impl Fault {
-    pub(crate) fn new(kind: FaultKind, particle: u64) -> Self {
+    /// A fault of this particle, in a step that the model fills in.
+    #[must_use]
+    pub fn new(kind: FaultKind, particle: u64) -> Self {
         Self {
             kind,
             particle,
             step: 0,
         }
     }
-    pub(crate) fn at_step(self, step: u64) -> Self {
+    /// The same fault in this step.
+    #[must_use]
+    pub fn at_step(self, step: u64) -> Self {
         Self { step, ..self }
     }
     /// Of two faults in one pass, the one that is reported: independent of who finds it first.

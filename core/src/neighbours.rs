@@ -49,11 +49,31 @@ impl<const D: usize> Grid<D> {
         x.map(|x| x.cell(self.cell))
     }
 
+    /// The cell's place on the torus.
     #[inline]
-    fn bucket(&self, cell: &[i64; D]) -> usize {
+    fn wrapped(&self, cell: &[i64; D]) -> [i64; D] {
+        core::array::from_fn(|d| cell[d].rem_euclid(self.count[d]))
+    }
+
+    /// The place `offset` (-1, 0 or 1) further along axis d: no division.
+    #[inline]
+    fn step(&self, d: usize, place: i64, offset: i64) -> i64 {
+        let next = place + offset;
+        if next < 0 {
+            next + self.count[d]
+        } else if next >= self.count[d] {
+            next - self.count[d]
+        } else {
+            next
+        }
+    }
+
+    #[inline]
+    fn bucket<Q: Quantity>(&self, x: &[Q; D]) -> usize {
+        let place = self.wrapped(&self.cell_of(x));
         let mut index = 0;
         for d in (0..D).rev() {
-            index = index * self.count[d] + cell[d].rem_euclid(self.count[d]);
+            index = index * self.count[d] + place[d];
         }
         index as usize
     }
@@ -74,7 +94,7 @@ impl Cells<'_> {
     pub fn sort<Q: Quantity, const D: usize>(&mut self, grid: &Grid<D>, position: &[[Q; D]]) {
         self.start.fill(0);
         for x in position {
-            self.start[grid.bucket(&grid.cell_of(x))] += 1;
+            self.start[grid.bucket(x)] += 1;
         }
         // Each count becomes the end of its bucket; filling from the back leaves the start there.
         let mut end = 0;
@@ -83,7 +103,7 @@ impl Cells<'_> {
             *s = end;
         }
         for (i, x) in position.iter().enumerate().rev() {
-            let place = &mut self.start[grid.bucket(&grid.cell_of(x))];
+            let place = &mut self.start[grid.bucket(x)];
             *place -= 1;
             self.order[*place as usize] = i as u32;
         }
@@ -116,20 +136,23 @@ impl<'a> CellsView<'a> {
         x: &[Q; D],
         mut visit: impl FnMut(&'a [u32]),
     ) {
-        let home = grid.cell_of(x);
+        let home = grid.wrapped(&grid.cell_of(x));
         let rows = 3usize.pow(D as u32 - 1);
         for row in 0..rows {
-            let mut cell = home;
+            // The row of buckets at offsets -1, 0, 1 along every axis but the first.
+            let mut first = 0;
             let mut rest = row;
-            for c in cell.iter_mut().skip(1) {
-                *c += (rest % 3) as i64 - 1;
+            let mut stride = grid.count[0];
+            for (d, &place) in home.iter().enumerate().skip(1) {
+                let c = grid.step(d, place, (rest % 3) as i64 - 1);
                 rest /= 3;
+                first += c * stride;
+                stride *= grid.count[d];
             }
-            let middle = self.bucket_range(grid, &cell);
-            cell[0] -= 1;
-            let left = self.bucket_range(grid, &cell);
-            cell[0] += 2;
-            let right = self.bucket_range(grid, &cell);
+            let range = |c: i64| self.bucket_range((first + c) as usize);
+            let left = range(grid.step(0, home[0], -1));
+            let middle = range(home[0]);
+            let right = range(grid.step(0, home[0], 1));
             if left.1 == middle.0 && middle.1 == right.0 {
                 visit(&self.order[left.0..right.1]);
             } else {
@@ -141,8 +164,7 @@ impl<'a> CellsView<'a> {
     }
 
     #[inline]
-    fn bucket_range<const D: usize>(&self, grid: &Grid<D>, cell: &[i64; D]) -> (usize, usize) {
-        let b = grid.bucket(cell);
+    fn bucket_range(&self, b: usize) -> (usize, usize) {
         (self.start[b] as usize, self.start[b + 1] as usize)
     }
 }

@@ -1,15 +1,22 @@
 //! The parallel executor.
 //!
-//! Particles are split among the threads of a rayon pool; each is summed by the core's own
-//! `gather`. The sums are integers in the fixed-point state, so their order could not matter; here
-//! it is even the same.
+//! Particles are split among the threads of a rayon pool. Each is summed in two passes over its
+//! candidates: the first writes those within reach to a short list, without a branch that depends
+//! on a distance (two candidates in three are out of reach, and nothing predicts which), the second
+//! adds their terms. They are the terms of the core's plain `gather`, in the same order.
 
-use loschmidt_core::{Executor, Fault, Serial};
+use loschmidt_core::executor::Targets;
+use loschmidt_core::fault::MAX_NEIGHBOURS;
+use loschmidt_core::pairs::{PairPass, Sources, separation};
+use loschmidt_core::{Arithmetic, Executor, Fault, FaultKind, Serial};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
 
 /// Fewest particles worth a task of their own: about 50 µs of work.
 const GRAIN: usize = 128;
+
+/// Length of the list of neighbours; a longer one is summed in pieces.
+const LIST: usize = 128;
 
 /// rayon, on a pool of its own.
 #[derive(Debug)]
@@ -41,6 +48,24 @@ impl Executor for Rayon {
         "rayon"
     }
 
+    fn sum<A, P, const D: usize>(
+        &self,
+        pass: &P,
+        to: &Targets<'_, A, P::Read, D>,
+        from: &Sources<'_, A, P::Read, D>,
+        out: &mut [P::Sum],
+    ) -> Result<(), Fault>
+    where
+        A: Arithmetic,
+        P: PairPass<A, D>,
+    {
+        self.for_each(out, |i, sum| {
+            let skip = to.same_set.then_some(i);
+            gather_listed(pass, &to.position[i], to.read[i], from, skip, sum)
+                .map_err(|kind| Fault::new(kind, to.id.get(i)))
+        })
+    }
+
     fn for_each<T: Send>(
         &self,
         items: &mut [T],
@@ -56,6 +81,53 @@ impl Executor for Rayon {
         };
         self.pool.install(run).map_or(Ok(()), Err)
     }
+}
+
+/// The core's `gather` with the branches taken out of the search.
+fn gather_listed<A, P, const D: usize>(
+    pass: &P,
+    x_i: &[A::Length; D],
+    read_i: P::Read,
+    from: &Sources<'_, A, P::Read, D>,
+    skip: Option<usize>,
+    sum: &mut P::Sum,
+) -> Result<(), FaultKind>
+where
+    A: Arithmetic,
+    P: PairPass<A, D>,
+{
+    let reach_squared = pass.reach_squared();
+    let skip = skip.map_or(u32::MAX, |i| i as u32);
+    let mut list = [0u32; LIST];
+    let mut listed = 0;
+    let mut neighbours = 0;
+    let mut result = Ok(());
+    let mut add = |list: &[u32]| {
+        neighbours += list.len();
+        for &j in list {
+            let (x_ij, r2) = separation::<A, D>(x_i, &from.position[j as usize]);
+            match P::add(sum, pass.term(&x_ij, r2, read_i, from.read[j as usize])) {
+                Some(new) => *sum = new,
+                None => result = Err(FaultKind::TermRange),
+            }
+        }
+    };
+    from.cells.around(from.grid, x_i, |run| {
+        for &j in run {
+            let (_, r2) = separation::<A, D>(x_i, &from.position[j as usize]);
+            list[listed] = j;
+            listed += usize::from(r2 < reach_squared) & usize::from(j != skip);
+            if listed == LIST {
+                add(&list);
+                listed = 0;
+            }
+        }
+    });
+    add(&list[..listed]);
+    if neighbours > MAX_NEIGHBOURS as usize {
+        return Err(FaultKind::Crowded);
+    }
+    result
 }
 
 /// Which executor, by its name.

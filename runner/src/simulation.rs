@@ -259,7 +259,8 @@ task!(Measure, Result<Diagnostics, Fault>, |model, system, exec| {
     Diagnostics::measure(model, system, exec)
 });
 task!(UpdateDensity, Result<(), Fault>, |model, system, exec| {
-    model.update_density(system, exec)
+    let step = system.progress.step;
+    model.update_density(system, exec).map_err(|fault| fault.at_step(step))
 });
 
 impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine<A, M, D> {

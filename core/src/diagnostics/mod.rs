@@ -50,7 +50,10 @@ impl Diagnostics {
         M: Model<A, D>,
         E: Executor,
     {
-        model.update_density(system, exec)?;
+        let step = system.progress.step;
+        model
+            .update_density(system, exec)
+            .map_err(|fault| fault.at_step(step))?;
         let forces = model.forces();
         let p = forces.parameters();
         let (lq, sq) = (p.scale.length_quantum(), p.scale.speed_quantum());
