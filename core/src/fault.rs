@@ -12,11 +12,14 @@ pub enum FaultKind {
     #[error("its velocity left the number range")]
     VelocityRange,
     /// One pair term (or the pull of gravity in one kick) reached 2^51 quanta or was not a number.
-    #[error("the force between it and a neighbour left the number range")]
+    #[error("one of its force or density terms left the number range")]
     TermRange,
     /// The density is zero or negative.
     #[error("its density is not positive")]
     DensityNotPositive,
+    /// The memory lent for a run is of the wrong length; found when the run is set up.
+    #[error("the slice lent for {0} has the wrong length")]
+    Capacity(&'static str),
     /// More neighbours than an integer sum is guaranteed to hold.
     #[error("it has more than {MAX_NEIGHBOURS} neighbours")]
     Crowded,

@@ -292,7 +292,7 @@ fn exponent_at_least(x: f64) -> i32 {
 }
 
 impl Scale {
-    /// Units that leave headroom: positions up to 4 times `extent` (largest |coordinate|, m),
+    /// Units that leave headroom: positions up to 6 times `extent` (largest |coordinate|, m),
     /// speeds and impulses up to 16 times `speed` (of sound, m/s), density terms up to
     /// 2 times `density` (kg/m³). All three must be positive and finite.
     ///
@@ -300,7 +300,7 @@ impl Scale {
     #[must_use]
     pub fn with_headroom(extent: f64, speed: f64, density: f64) -> Self {
         Self {
-            length_exponent: exponent_at_least(4.0 * extent) - 5,
+            length_exponent: exponent_at_least(6.0 * extent) - 5,
             speed_exponent: exponent_at_least(16.0 * speed) - 11,
             density_exponent: exponent_at_least(2.0 * density) - 11,
         }

@@ -658,3 +658,13 @@ fn parameters_out_of_range_are_named() {
     );
     assert_eq!(name(&|p| p.integrator = &PEFRL), "fine");
 }
+
+#[test]
+fn a_slice_of_the_wrong_length_is_a_fault_when_the_run_is_set_up() {
+    let mut system = heap(4, 2, Wall::Dummy);
+    let (model, mut parts) = system.parts();
+    let impulse = std::mem::take(&mut parts.scratch.impulse);
+    parts.scratch.impulse = &mut impulse[..3];
+    let found = model.initialise(&mut parts, &Serial);
+    assert_eq!(found, Err(fault(FaultKind::Capacity("impulse"), 0, 0)));
+}

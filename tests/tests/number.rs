@@ -100,7 +100,7 @@ proptest! {
     ) {
         let scale = Scale::with_headroom(extent, speed, density);
         for (limit, wanted) in [
-            (LIMIT * scale.length_quantum(), 8.0 * extent),
+            (LIMIT * scale.length_quantum(), 6.0 * extent),
             (LIMIT * scale.speed_quantum(), 16.0 * speed),
             (LIMIT * scale.density_quantum(), 2.0 * density),
         ] {
@@ -156,16 +156,11 @@ fn the_dam_break_of_the_paper_gets_exponents_zero() {
 
 #[test]
 fn a_power_of_two_is_its_own_headroom() {
-    // 8 x 4 = 32 exactly; a hair more needs one exponent more.
-    assert_eq!(Scale::with_headroom(4.0, 1.0, 1.0).length_exponent, 0);
-    assert_eq!(
-        Scale::with_headroom(4.0f64.next_up(), 1.0, 1.0).length_exponent,
-        1
-    );
-    assert_eq!(
-        Scale::with_headroom(4.0f64.next_down(), 1.0, 1.0).length_exponent,
-        0
-    );
+    // 2 x 1024 = 2^11 exactly; a hair more needs one exponent more.
+    let exponent = |density| Scale::with_headroom(1.0, 1.0, density).density_exponent;
+    assert_eq!(exponent(1024.0), 0);
+    assert_eq!(exponent(1024.0f64.next_up()), 1);
+    assert_eq!(exponent(1024.0f64.next_down()), 0);
 }
 
 #[test]

@@ -90,6 +90,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
     }
 
     fn initialise<E: Executor>(&self, system: &mut System<'_, A, D>, _: &E) -> Result<(), Fault> {
+        self.forces.check_capacity(system)?;
         system.progress.invalidate();
         let rho = self.forces.reference_density();
         system.state.density.fill(rho);
