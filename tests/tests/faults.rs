@@ -603,13 +603,13 @@ fn parameters_out_of_range_are_named() {
             radius: 1.0,
             softening: 0.0,
         };
-        assert_eq!(name(&|p| p.wall = wall), "wall energy");
+        assert_eq!(name(&|p| p.wall = wall), "wall.energy");
         let wall = Wall::Conservative {
             energy: 1.0,
             radius: bad,
             softening: 0.0,
         };
-        assert_eq!(name(&|p| p.wall = wall), "wall radius");
+        assert_eq!(name(&|p| p.wall = wall), "wall.radius");
     }
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         let wall = Wall::Conservative {
@@ -617,7 +617,7 @@ fn parameters_out_of_range_are_named() {
             radius: 1.0,
             softening: bad,
         };
-        assert_eq!(name(&|p| p.wall = wall), "wall softening");
+        assert_eq!(name(&|p| p.wall = wall), "wall.softening");
         let central = Central {
             centre: [0.0; 2],
             strength: 1.0,
@@ -625,24 +625,30 @@ fn parameters_out_of_range_are_named() {
         };
         assert_eq!(
             name(&|p| p.gravity.central = Some(central)),
-            "central softening"
+            "gravity.central.softening"
         );
         assert_eq!(name(&|p| p.extent[1] = bad), "extent");
     }
     for bad in [f64::NAN, f64::INFINITY] {
-        assert_eq!(name(&|p| p.gravity.uniform[1] = bad), "gravity");
+        assert_eq!(name(&|p| p.gravity.uniform[1] = bad), "gravity.uniform");
         let central = Central {
             centre: [0.0, bad],
             strength: 1.0,
             softening: 1.0,
         };
-        assert_eq!(name(&|p| p.gravity.central = Some(central)), "gravity");
+        assert_eq!(
+            name(&|p| p.gravity.central = Some(central)),
+            "gravity.central.centre"
+        );
         let central = Central {
             centre: [0.0; 2],
             strength: bad,
             softening: 1.0,
         };
-        assert_eq!(name(&|p| p.gravity.central = Some(central)), "gravity");
+        assert_eq!(
+            name(&|p| p.gravity.central = Some(central)),
+            "gravity.central.strength"
+        );
     }
     assert_eq!(name(&|p| p.support_radius = 1e6), "support_radius");
     assert_eq!(name(&|p| p.reference_density = 1e7), "reference_density");

@@ -50,7 +50,7 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         };
         let reach = quanta("support_radius", p.support_radius)?;
         let wall_reach = match p.wall {
-            Wall::Conservative { radius, .. } => quanta("wall radius", radius)?,
+            Wall::Conservative { radius, .. } => quanta("wall.radius", radius)?,
             Wall::Dummy | Wall::None => reach,
         };
         let extent = p.extent.map(|e| (e / length_quantum) as i64);
