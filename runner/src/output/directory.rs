@@ -112,31 +112,42 @@ impl RunDirectory {
         })
     }
 
-    /// Opens the directory of an earlier run to go on after `step`: rows after it are dropped.
+    /// The rows of an earlier run up to `step`.
     ///
     /// # Errors
     /// Not a run, or not readable.
-    pub fn reopen(path: &Path, step: u64) -> Result<(Self, Vec<Row>), OutputError> {
-        let series = path.join(SERIES);
-        let file = File::open(&series).map_err(io("read", &series))?;
-        let mut rows = series::read(file).map_err(io("read", &series))?;
+    pub fn read_rows(path: &Path, step: u64) -> Result<Vec<Row>, OutputError> {
+        let mut rows = File::open(path.join(SERIES))
+            .and_then(series::read)
+            .map_err(|e| OutputError::NotARun {
+                path: path.to_owned(),
+                why: format!("{SERIES} cannot be read ({e})"),
+            })?;
         rows.retain(|row| row.step <= step);
+        Ok(rows)
+    }
+
+    /// Opens the directory of an earlier run to go on after these rows; later ones are dropped.
+    ///
+    /// # Errors
+    /// The file system's.
+    pub fn reopen(path: &Path, rows: &[Row]) -> Result<Self, OutputError> {
+        let series = path.join(SERIES);
         // The rewritten file replaces the old one whole, so that an interruption here loses nothing.
         let beside = series.with_extension("part");
         let file = File::create(&beside).map_err(io("create", &beside))?;
         let mut writer = SeriesWriter::new(file);
-        for row in &rows {
+        for row in rows {
             writer.write(row).map_err(io("write", &beside))?;
         }
         fs::rename(&beside, &series).map_err(io("replace", &series))?;
-        let directory = Self {
+        Ok(Self {
             path: path.to_owned(),
             series: writer,
             frames: Collection::new(),
             csv: CsvWriter::new(),
             vtp: VtpWriter::new(),
-        };
-        Ok((directory, rows))
+        })
     }
 
     /// Where it is.

@@ -128,11 +128,11 @@ impl Run {
         player.restore_home(home.state)?;
         player.restore(&latest.state, latest.position, latest.arrow)?;
         let step = latest.state.step;
-        let (directory, rows) = RunDirectory::reopen(path, step)?;
-        let mut run = Self::new(player, Some(directory), started);
-        run.rows = rows;
-        run.turnaround_digest = turnaround.map(|snapshot| snapshot.digest().to_string());
+        let mut run = Self::new(player, None, started);
+        run.rows = RunDirectory::read_rows(path, step)?;
         run.check_rows(path)?;
+        run.turnaround_digest = turnaround.map(|snapshot| snapshot.digest().to_string());
+        run.directory = Some(RunDirectory::reopen(path, &run.rows)?);
         run.note_frames(step)?;
         Ok(run)
     }
