@@ -37,8 +37,6 @@ pub fn read(mut reader: impl Read) -> std::io::Result<Vec<Row>> {
     reader.read_to_end(&mut text)?;
     let whole = text.iter().rposition(|&byte| byte == b'\n');
     let whole = &text[..whole.map_or(0, |end| end + 1)];
-    let rows: csv::Result<Vec<Row>> = csv::Reader::from_reader(whole)
-        .into_deserialize()
-        .collect();
+    let rows: csv::Result<Vec<Row>> = csv::Reader::from_reader(whole).into_deserialize().collect();
     Ok(rows?)
 }
