@@ -78,6 +78,7 @@ impl From<RunError> for Failure {
             | RunError::Build(_)
             | RunError::Ended { .. }
             | RunError::ForeignSnapshot(_)
+            | RunError::MisplacedSnapshot { .. }
             | RunError::NoRows => Self::new(USAGE, format!("error: {error}")),
             RunError::Fault { ref snapshot, .. } => {
                 let mut message = format!("error: {error}");
