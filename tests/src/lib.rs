@@ -5,7 +5,9 @@
 //! - [`small`]: small systems in `heapless` vectors, the same recipe for every scheme, dimension
 //!   and arithmetic.
 //! - [`generator`]: numbers that look random and are the same everywhere.
+//! - [`program`]: scenes, players and runs in a line each.
 
 pub mod generator;
 pub mod permitted;
+pub mod program;
 pub mod small;

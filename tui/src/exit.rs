@@ -3,6 +3,7 @@
 use loschmidt_runner::RunError;
 use loschmidt_runner::output::{OutputError, SnapshotError};
 use loschmidt_runner::scene::SceneError;
+use std::io::Write;
 use std::process::ExitCode;
 
 /// The run did not return exactly.
@@ -15,6 +16,11 @@ pub const OUTPUT: u8 = 3;
 pub const RANGE: u8 = 4;
 /// A signal came.
 pub const INTERRUPTED: u8 = 130;
+
+/// Prints a line on standard error; a reader that has gone away ends nothing.
+pub fn tell(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
 
 /// What goes to standard error, and the code to leave with.
 #[derive(Debug)]
@@ -33,7 +39,7 @@ impl Failure {
 
     /// Prints the message.
     pub fn report(self) -> ExitCode {
-        eprintln!("{}", self.message.trim_end());
+        tell(self.message.trim_end());
         ExitCode::from(self.code)
     }
 }
@@ -72,6 +78,7 @@ impl From<RunError> for Failure {
             | RunError::Build(_)
             | RunError::Ended { .. }
             | RunError::ForeignSnapshot(_)
+            | RunError::MisplacedSnapshot { .. }
             | RunError::NoRows => Self::new(USAGE, format!("error: {error}")),
             RunError::Fault { ref snapshot, .. } => {
                 let mut message = format!("error: {error}");

@@ -1,5 +1,6 @@
 //! Progress on standard error: a bar on a terminal, a line now and then elsewhere.
 
+use crate::exit::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use loschmidt_runner::run::Progress;
 use std::io::IsTerminal;
@@ -68,13 +69,13 @@ impl Display {
                     let pace = (now - start).as_secs_f64() / done as f64;
                     duration(pace * (progress.total - progress.step) as f64)
                 };
-                eprintln!(
+                tell(&format!(
                     "{} step {}/{}, {left} left; {}",
                     if progress.way_back { "back" } else { "out" },
                     progress.step,
                     progress.total,
                     energies(progress)
-                );
+                ));
             }
         }
     }

@@ -112,31 +112,42 @@ impl RunDirectory {
         })
     }
 
-    /// Opens the directory of an earlier run to go on after `step`: rows after it are dropped.
+    /// The rows of an earlier run up to `step`.
     ///
     /// # Errors
     /// Not a run, or not readable.
-    pub fn reopen(path: &Path, step: u64) -> Result<(Self, Vec<Row>), OutputError> {
-        let series = path.join(SERIES);
-        let file = File::open(&series).map_err(io("read", &series))?;
-        let mut rows = series::read(file).map_err(io("read", &series))?;
+    pub fn read_rows(path: &Path, step: u64) -> Result<Vec<Row>, OutputError> {
+        let mut rows = File::open(path.join(SERIES))
+            .and_then(series::read)
+            .map_err(|e| OutputError::NotARun {
+                path: path.to_owned(),
+                why: format!("{SERIES} cannot be read ({e})"),
+            })?;
         rows.retain(|row| row.step <= step);
+        Ok(rows)
+    }
+
+    /// Opens the directory of an earlier run to go on after these rows; later ones are dropped.
+    ///
+    /// # Errors
+    /// The file system's.
+    pub fn reopen(path: &Path, rows: &[Row]) -> Result<Self, OutputError> {
+        let series = path.join(SERIES);
         // The rewritten file replaces the old one whole, so that an interruption here loses nothing.
         let beside = series.with_extension("part");
         let file = File::create(&beside).map_err(io("create", &beside))?;
         let mut writer = SeriesWriter::new(file);
-        for row in &rows {
+        for row in rows {
             writer.write(row).map_err(io("write", &beside))?;
         }
         fs::rename(&beside, &series).map_err(io("replace", &series))?;
-        let directory = Self {
+        Ok(Self {
             path: path.to_owned(),
             series: writer,
             frames: Collection::new(),
             csv: CsvWriter::new(),
             vtp: VtpWriter::new(),
-        };
-        Ok((directory, rows))
+        })
     }
 
     /// Where it is.
@@ -251,30 +262,38 @@ impl RunDirectory {
 fn remove_run(path: &Path) -> Result<(), OutputError> {
     for name in [MANIFEST, SCENE, SERIES, COLLECTION] {
         let file = path.join(name);
-        match fs::remove_file(&file) {
-            Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
-                return Err(io("remove", &file)(e));
-            }
-            _ => {}
-        }
+        remove(&file)?;
+        remove(&file.with_extension("part"))?;
     }
-    for (sub, extensions) in [
-        (FRAMES, &["csv", "vtp"][..]),
-        (SNAPSHOTS, &["snapshot", "part"]),
-    ] {
-        let sub = path.join(sub);
-        let Ok(entries) = fs::read_dir(&sub) else {
-            continue;
-        };
-        for entry in entries.flatten() {
-            let file = entry.path();
-            let ours = file
-                .extension()
-                .is_some_and(|e| extensions.iter().any(|ours| e == *ours));
-            if ours {
-                fs::remove_file(&file).map_err(io("remove", &file))?;
-            }
+    for name in ["home", "turnaround", "latest"] {
+        let file = RunDirectory::snapshot_path(path, name);
+        remove(&file)?;
+        remove(&file.with_extension("part"))?;
+    }
+    let Ok(frames) = fs::read_dir(path.join(FRAMES)) else {
+        return Ok(());
+    };
+    for frame in frames.flatten() {
+        if frame.file_name().to_str().is_some_and(is_frame) {
+            remove(&frame.path())?;
         }
     }
     Ok(())
+}
+
+/// Removes a file that may be missing.
+fn remove(file: &Path) -> Result<(), OutputError> {
+    match fs::remove_file(file) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(io("remove", file)(e)),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a file of this name is one that [`frame_path`] names.
+fn is_frame(name: &str) -> bool {
+    let index = name.strip_prefix("particles-").and_then(|rest| {
+        let (digits, extension) = rest.split_once('.')?;
+        ["csv", "vtp"].contains(&extension).then_some(digits)
+    });
+    index.is_some_and(|digits| digits.len() >= 6 && digits.bytes().all(|b| b.is_ascii_digit()))
 }

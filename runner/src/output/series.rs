@@ -28,23 +28,15 @@ impl<W: Write> SeriesWriter<W> {
     }
 }
 
-/// Reads all complete rows; a last line that was cut off in the middle is ignored.
+/// Reads all whole lines; a last one without its end, which was cut off, is left out.
 ///
 /// # Errors
-/// The reader's, and a malformed line before the last.
-pub fn read(reader: impl Read) -> std::io::Result<Vec<Row>> {
-    let mut rows = Vec::new();
-    let mut records = csv::Reader::from_reader(reader).into_deserialize::<Row>();
-    while let Some(row) = records.next() {
-        match row {
-            Ok(row) => rows.push(row),
-            Err(error) if records.reader().is_done() || error.is_io_error() => {
-                if error.is_io_error() {
-                    return Err(error.into());
-                }
-            }
-            Err(error) => return Err(error.into()),
-        }
-    }
-    Ok(rows)
+/// The reader's, and a malformed line.
+pub fn read(mut reader: impl Read) -> std::io::Result<Vec<Row>> {
+    let mut text = Vec::new();
+    reader.read_to_end(&mut text)?;
+    let whole = text.iter().rposition(|&byte| byte == b'\n');
+    let whole = &text[..whole.map_or(0, |end| end + 1)];
+    let rows: csv::Result<Vec<Row>> = csv::Reader::from_reader(whole).into_deserialize().collect();
+    Ok(rows?)
 }

@@ -55,6 +55,14 @@ pub enum RunError {
     /// A snapshot of another scene.
     #[error("{} was taken of another scene than the scene.toml beside it", .0.display())]
     ForeignSnapshot(PathBuf),
+    /// A snapshot of this scene, but of another moment.
+    #[error("{} holds the state after step {step}, which does not belong there", path.display())]
+    MisplacedSnapshot {
+        /// The file.
+        path: PathBuf,
+        /// Steps taken when it was.
+        step: u64,
+    },
     /// A run without rows has no outcome.
     #[error("the run recorded nothing")]
     NoRows,

@@ -113,26 +113,35 @@ impl Run {
             ..choose(&manifest)
         };
         let mut player = new_player(scene, options)?;
-        let read = |name: &str| -> Result<Snapshot, RunError> {
+        let plan = Plan::of(player.scene());
+        let read = |name: &str, belongs: &dyn Fn(&Snapshot) -> bool| -> Result<_, RunError> {
             let file = RunDirectory::snapshot_path(path, name);
             let snapshot = Snapshot::read(&file).map_err(OutputError::from)?;
             if snapshot.scene != scene_hash(player.scene()) {
                 return Err(RunError::ForeignSnapshot(file));
             }
+            if !plan.passes(&snapshot) || !belongs(&snapshot) {
+                return Err(RunError::MisplacedSnapshot {
+                    path: file,
+                    step: snapshot.state.step,
+                });
+            }
             Ok(snapshot)
         };
-        let (home, latest) = (read("home")?, read("latest")?);
-        let turned = latest.state.step >= Plan::of(player.scene()).out
-            && player.scene().turnaround.is_some();
-        let turnaround = turned.then(|| read("turnaround")).transpose()?;
+        let home = read("home", &|home| home.state.step == 0)?;
+        let latest = read("latest", &|_| true)?;
+        let turned = plan.back > 0 && latest.state.step >= plan.out;
+        let turnaround = turned
+            .then(|| read("turnaround", &|turn| turn.state.step == plan.out))
+            .transpose()?;
         player.restore_home(home.state)?;
         player.restore(&latest.state, latest.position, latest.arrow)?;
         let step = latest.state.step;
-        let (directory, rows) = RunDirectory::reopen(path, step)?;
-        let mut run = Self::new(player, Some(directory), started);
-        run.rows = rows;
-        run.turnaround_digest = turnaround.map(|snapshot| snapshot.digest().to_string());
+        let mut run = Self::new(player, None, started);
+        run.rows = RunDirectory::read_rows(path, step)?;
         run.check_rows(path)?;
+        run.turnaround_digest = turnaround.map(|snapshot| snapshot.digest().to_string());
+        run.directory = Some(RunDirectory::reopen(path, &run.rows)?);
         run.note_frames(step)?;
         Ok(run)
     }

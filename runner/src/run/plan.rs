@@ -4,6 +4,8 @@
 //! from home, so that the way back passes the same states as the way out and their rows can be
 //! compared bit for bit. Nothing that is recorded changes a bit of the run.
 
+use crate::output::Snapshot;
+use crate::player::Arrow;
 use crate::scene::Scene;
 
 /// The course of a run.
@@ -66,6 +68,20 @@ impl Plan {
         } else {
             self.out - (step - self.out).min(self.out)
         }
+    }
+
+    /// Whether the run passes through the place in time of this snapshot.
+    #[must_use]
+    pub fn passes(&self, snapshot: &Snapshot) -> bool {
+        let step = snapshot.state.step;
+        let arrow = if step <= self.out {
+            Arrow::Forward
+        } else {
+            Arrow::Backward
+        };
+        step <= self.total()
+            && snapshot.arrow == arrow
+            && u64::try_from(snapshot.position) == Ok(self.position(step))
     }
 
     /// What is due after `step` steps: at multiples of the intervals, at the turnaround, at the end.

@@ -1,0 +1,125 @@
+//! Scenes, players and runs in a line each, as the tests of the runner need them.
+//!
+//! Everything here panics where it cannot go on: it is called by tests alone.
+
+use loschmidt_runner::run::Row;
+use loschmidt_runner::scene::{Scene, Source, load};
+use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options, Outcome, Player, Run, RunError};
+use std::num::NonZeroUsize;
+use std::sync::atomic::AtomicBool;
+
+/// A scene of the catalogue with overrides.
+#[must_use]
+pub fn scene(name: &str, set: &[&str]) -> Scene {
+    let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
+    load(&Source::Catalogue(name.to_owned()), &set).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A scene from its text, called `test`.
+#[must_use]
+pub fn scene_of(text: &str) -> Scene {
+    let source = Source::Text {
+        name: "test.toml".to_owned(),
+        text: text.to_owned(),
+    };
+    load(&source, &[]).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The reference executor.
+#[must_use]
+pub fn serial() -> Options {
+    Options {
+        executor: ExecutorKind::Serial,
+        ..threads(1)
+    }
+}
+
+/// The parallel executor on so many threads.
+#[must_use]
+pub fn threads(n: usize) -> Options {
+    Options {
+        executor: ExecutorKind::Rayon,
+        threads: NonZeroUsize::new(n).expect("a thread at least"),
+        arithmetic: ArithmeticKind::Fixed,
+        shuffle: None,
+    }
+}
+
+/// The same options with the particles stored in another order.
+#[must_use]
+pub fn shuffled(options: Options, seed: u64) -> Options {
+    Options {
+        shuffle: Some(seed),
+        ..options
+    }
+}
+
+/// The same options in floating point.
+#[must_use]
+pub fn float(options: Options) -> Options {
+    Options {
+        arithmetic: ArithmeticKind::Float,
+        ..options
+    }
+}
+
+/// Every way to walk the particles that must not change a bit: the serial executor and 1, 2, 3 and
+/// 8 threads, each with the lattice order and with two others.
+#[must_use]
+pub fn every_way() -> Vec<Options> {
+    let executors = [serial(), threads(1), threads(2), threads(3), threads(8)];
+    let orders = [None, Some(1), Some(0xdead_beef)];
+    executors
+        .iter()
+        .flat_map(|&options| orders.map(|shuffle| Options { shuffle, ..options }))
+        .collect()
+}
+
+/// A player at home.
+#[must_use]
+pub fn player(scene: Scene, options: Options) -> Player {
+    let initial = scene.initial_state().unwrap_or_else(|e| panic!("{e}"));
+    Player::new(scene, initial, options).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// A run that has been tried to its end, nothing written.
+///
+/// # Errors
+/// The run's.
+pub fn try_run(scene: Scene, options: Options) -> (Result<Outcome, RunError>, Vec<Row>) {
+    let mut run = Run::start(scene, options, None).unwrap_or_else(|e| panic!("{e}"));
+    let outcome = run.execute(|_| {}, &AtomicBool::new(false));
+    (outcome, run.rows().to_vec())
+}
+
+/// A run that comes to its end: what it found, and its rows.
+#[must_use]
+pub fn run(scene: Scene, options: Options) -> (Outcome, Vec<Row>) {
+    let (outcome, rows) = try_run(scene, options);
+    (outcome.unwrap_or_else(|e| panic!("{e}")), rows)
+}
+
+/// Asserts that every row of the way back is that of the way out at the same place: all energies,
+/// entropies, speeds and edges to the last bit, all momenta negated.
+pub fn assert_same_way_back(rows: &[Row]) {
+    let (out, back): (Vec<&Row>, Vec<&Row>) = rows.iter().partition(|row| row.leg == 1);
+    assert!(!back.is_empty());
+    for row in back {
+        let there = out.iter().find(|o| o.position == row.position);
+        let there = there.unwrap_or_else(|| panic!("no row at {} on the way out", row.position));
+        let turned = Row {
+            momentum_x_quanta: -row.momentum_x_quanta,
+            momentum_y_quanta: -row.momentum_y_quanta,
+            momentum_z_quanta: -row.momentum_z_quanta,
+            angular_momentum_x: -row.angular_momentum_x,
+            angular_momentum_y: -row.angular_momentum_y,
+            angular_momentum_z: -row.angular_momentum_z,
+            step: there.step,
+            leg: there.leg,
+            elapsed_s: there.elapsed_s,
+            ..row.clone()
+        };
+        // Equality of floats: the only bits that it forgives are the sign of a zero momentum.
+        assert_eq!(&turned, *there, "at position {}", row.position);
+    }
+}

@@ -1,0 +1,191 @@
+//! What cannot be resumed is told, and left as it is.
+#![cfg(unix)]
+
+mod program;
+
+use program::{Place, end, files_below, signal, wait_for_lines};
+use std::fs;
+use std::path::Path;
+
+const SET: [&str; 3] = ["dam-break", "--set", "particle_spacing=0.1"];
+
+/// A run that was interrupted on its way back.
+fn broken(place: &Place, out: &str, more: &[&str]) {
+    let mut arguments = vec!["run", "--quiet", "--out", out];
+    arguments.extend(SET);
+    arguments.extend(more);
+    let child = place.start(&arguments);
+    wait_for_lines(&place.join(out), 650);
+    signal(&child, "INT");
+    end(child).refused(130, &[]);
+}
+
+/// Asserts that the run is refused with these words, and afterwards is as it was.
+fn assert_refused(place: &Place, run: &str, words: &[&str]) {
+    let before = files_below(&place.join(run));
+    place.call(&["resume", run, "--json"]).refused(2, words);
+    let after = files_below(&place.join(run));
+    let names =
+        |files: &std::collections::BTreeMap<_, _>| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&before), names(&after));
+    for (name, bytes) in &before {
+        assert!(after[name] == *bytes, "{} was changed", name.display());
+    }
+}
+
+fn change(path: &Path, change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
+    let before = fs::read(path).expect("a file");
+    let mut bytes = before.clone();
+    change(&mut bytes);
+    fs::write(path, bytes).expect("written");
+    before
+}
+
+#[test]
+fn what_is_no_run_is_refused() {
+    let place = Place::new();
+    place
+        .call(&["resume", "missing"])
+        .refused(2, &["missing is not the directory of a run"]);
+    fs::create_dir(place.join("empty")).expect("a directory");
+    assert_refused(
+        &place,
+        "empty",
+        &["empty is not the directory of a run", "manifest.json"],
+    );
+    fs::write(place.join("empty/manifest.json"), "{}").expect("a file");
+    assert_refused(&place, "empty", &["empty is not the directory of a run"]);
+    place.call(&["resume"]).refused(2, &["RUN"]);
+}
+
+#[test]
+fn a_finished_run_is_refused() {
+    let place = Place::new();
+    place.run(
+        "a",
+        &[
+            "dam-break",
+            "--set",
+            "particle_spacing=0.2",
+            "--set",
+            "turnaround=0.1",
+        ],
+    );
+    assert_refused(
+        &place,
+        "a",
+        &["the run in a has finished", "nothing to resume"],
+    );
+}
+
+#[test]
+fn a_damaged_or_missing_file_is_named_and_nothing_is_changed() {
+    let place = Place::new();
+    broken(&place, "a", &[]);
+    for name in ["home", "turnaround", "latest"] {
+        let name = format!("{name}.snapshot");
+        let path = place.join("a/snapshots").join(&name);
+        let whole = change(&path, |bytes| bytes[1000] ^= 1);
+        assert_refused(&place, "a", &[&name, "checksum"]);
+        change(&path, |bytes| bytes.truncate(1000));
+        assert_refused(&place, "a", &[&name, "checksum"]);
+        change(&path, |bytes| bytes.clear());
+        assert_refused(&place, "a", &[&name, "is not a usable snapshot"]);
+        fs::remove_file(&path).expect("removed");
+        assert_refused(&place, "a", &["cannot read snapshot", &name]);
+        fs::write(&path, whole).expect("written");
+    }
+    let scene = place.join("a/scene.toml");
+    let whole = change(&scene, |bytes| bytes.extend(b"[[["));
+    assert_refused(&place, "a", &["scene.toml"]);
+    fs::remove_file(&scene).expect("removed");
+    assert_refused(&place, "a", &["scene.toml"]);
+    fs::write(&scene, whole).expect("written");
+    fs::rename(place.join("a/series.csv"), place.join("series.csv")).expect("moved");
+    place.call(&["resume", "a"]).refused(2, &["series.csv"]);
+    fs::rename(place.join("series.csv"), place.join("a/series.csv")).expect("moved");
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+}
+
+#[test]
+fn a_series_cut_off_anywhere_is_refused() {
+    let place = Place::new();
+    broken(&place, "a", &[]);
+    let series = place.join("a/series.csv");
+    let whole = fs::read(&series).expect("a series");
+    let last_line = whole[..whole.len() - 1]
+        .iter()
+        .rposition(|&b| b == b'\n')
+        .expect("lines");
+    // The last line without its end, in the middle of its last number, at every place; whole lines
+    // fewer; a line that is missing in the middle; nothing.
+    let mut cuts: Vec<Vec<u8>> = (last_line..whole.len())
+        .map(|end| whole[..end].to_vec())
+        .collect();
+    cuts.push(whole[..whole.len() / 2].to_vec());
+    let lines: Vec<&[u8]> = whole.split_inclusive(|&b| b == b'\n').collect();
+    cuts.push([&lines[..100], &lines[101..]].concat().concat());
+    cuts.push(lines[0].to_vec());
+    cuts.push(Vec::new());
+    for cut in cuts {
+        fs::write(&series, &cut).expect("written");
+        assert_refused(
+            &place,
+            "a",
+            &["series.csv does not hold the rows up to step"],
+        );
+    }
+    // Garbage in the middle.
+    let mut garbage = lines.clone();
+    garbage[100] = b"these,are,no,numbers\n";
+    fs::write(&series, garbage.concat()).expect("written");
+    assert_refused(&place, "a", &["series.csv"]);
+    fs::write(&series, &whole).expect("written");
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+}
+
+#[test]
+fn snapshots_of_another_scene_or_arithmetic_are_refused() {
+    let place = Place::new();
+    broken(&place, "a", &[]);
+    // The same particles under another time step; other particles; the same scene in floats.
+    broken(&place, "slow", &["--set", "cfl=0.19"]);
+    broken(&place, "coarse", &["--set", "particle_spacing=0.2"]);
+    broken(&place, "float", &["--arithmetic", "float"]);
+    let latest = place.join("a/snapshots/latest.snapshot");
+    let own = fs::read(&latest).expect("a snapshot");
+    for other in ["slow", "coarse"] {
+        fs::copy(place.join(other).join("snapshots/latest.snapshot"), &latest).expect("copied");
+        assert_refused(&place, "a", &["latest.snapshot was taken of another scene"]);
+    }
+    fs::copy(place.join("float/snapshots/latest.snapshot"), &latest).expect("copied");
+    assert_refused(
+        &place,
+        "a",
+        &["does not belong to this scene", "another arithmetic"],
+    );
+    fs::write(&latest, own).expect("written");
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+}
+
+#[test]
+fn a_snapshot_in_the_place_of_another_is_refused() {
+    let place = Place::new();
+    broken(&place, "a", &[]);
+    let path = |name: &str| place.join("a/snapshots").join(format!("{name}.snapshot"));
+    for (name, other) in [
+        ("home", "latest"),
+        ("home", "turnaround"),
+        ("turnaround", "latest"),
+    ] {
+        let own = fs::read(path(name)).expect("a snapshot");
+        fs::copy(path(other), path(name)).expect("copied");
+        assert_refused(
+            &place,
+            "a",
+            &[&format!("{name}.snapshot holds the state after step ")],
+        );
+        fs::write(path(name), own).expect("written");
+    }
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+}

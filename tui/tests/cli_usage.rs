@@ -1,0 +1,294 @@
+//! The other commands, and everything that is refused: exit code 2 and nothing on standard output.
+
+mod program;
+
+use program::Place;
+use serde_json::Value;
+use std::fs;
+use std::time::{Duration, Instant};
+
+const CATALOGUE: [&str; 4] = [
+    "dam-break",
+    "dam-break-3d",
+    "colliding-drops",
+    "rotating-drop",
+];
+
+/// Makes a few dozen steps of a scene of the catalogue.
+const SHORT: [(&str, &[&str]); 4] = [
+    ("dam-break", &["particle_spacing=0.1", "turnaround=0.02"]),
+    (
+        "dam-break-3d",
+        &["particle_spacing=0.125", "turnaround=0.05"],
+    ),
+    (
+        "colliding-drops",
+        &["particle_spacing=0.05", "turnaround=0.03"],
+    ),
+    (
+        "rotating-drop",
+        &["particle_spacing=0.05", "turnaround=0.06"],
+    ),
+];
+
+#[test]
+fn the_catalogue_is_listed_with_its_sources() {
+    let place = Place::new();
+    let ended = place.call(&["scenes"]).with_code(0);
+    for name in CATALOGUE {
+        assert!(ended.stdout.lines().any(|line| line.starts_with(name)));
+    }
+    assert_eq!(ended.stdout.lines().count(), 2 * CATALOGUE.len());
+    assert_eq!(ended.stderr, "");
+}
+
+#[test]
+fn a_printed_scene_is_the_scene() {
+    let place = Place::new();
+    for (name, set) in SHORT {
+        let set: Vec<&str> = set.iter().flat_map(|&s| ["--set", s]).collect();
+        let mut arguments = vec![name];
+        arguments.extend(&set);
+        let direct = place.run(&format!("{name}-direct"), &arguments);
+        // Printed with the overrides in it, and printed without them and overridden later.
+        let mut print = vec!["scenes", "print", name];
+        print.extend(&set);
+        let text = place.call(&print).with_code(0).stdout;
+        fs::write(place.join("scene.toml"), &text).expect("a file");
+        let printed = place.run(&format!("{name}-printed"), &["scene.toml"]);
+        assert_eq!(direct["digest"], printed["digest"]);
+        assert_eq!(direct["scene"], printed["scene"]);
+        assert_eq!(
+            fs::read_to_string(place.join(&format!("{name}-direct/scene.toml"))).expect("a file"),
+            text
+        );
+        let plain = place.call(&["scenes", "print", name]).with_code(0).stdout;
+        fs::write(place.join("plain.toml"), plain).expect("a file");
+        arguments[0] = "plain.toml";
+        let overridden = place.run(&format!("{name}-overridden"), &arguments);
+        assert_eq!(direct["digest"], overridden["digest"]);
+    }
+}
+
+#[test]
+fn check_tells_what_every_scene_of_the_catalogue_takes() {
+    let place = Place::new();
+    for name in CATALOGUE {
+        let text = place.call(&["check", name]).with_code(0).stdout;
+        for word in [
+            "particles",
+            "steps",
+            "memory",
+            "time",
+            "acoustic limit",
+            "force limit",
+        ] {
+            assert!(
+                text.lines().any(|line| line.trim_start().starts_with(word)),
+                "{word}: {text}"
+            );
+        }
+        assert!(!text.contains("EXCEEDED"), "{text}");
+    }
+    let text = place.call(&["check", "dam-break"]).with_code(0).stdout;
+    assert!(text.contains("80000 fluid, 6008 wall"));
+    assert!(text.contains("80000 (40000 out and 40000 back)"));
+    let set = [
+        "check",
+        "dam-break",
+        "--set",
+        "particle_spacing=0.1",
+        "--set",
+        "cfl=0.5",
+    ];
+    let text = place.call(&set).with_code(0).stdout;
+    assert!(text.contains("EXCEEDED (0.4 h/c)"), "{text}");
+    assert!(
+        fs::read_dir(place.path())
+            .expect("a directory")
+            .next()
+            .is_none()
+    );
+}
+
+#[test]
+fn the_digest_of_a_snapshot_is_that_of_the_manifest() {
+    let place = Place::new();
+    for (n, (name, set)) in SHORT.into_iter().enumerate() {
+        for arithmetic in ["fixed", "float"] {
+            let out = format!("{name}-{arithmetic}");
+            let mut arguments = vec!["run", "--quiet", "--out", &out, name];
+            arguments.extend(["--arithmetic", arithmetic]);
+            arguments.extend(set.iter().flat_map(|&s| ["--set", s]));
+            let code = place.call(&arguments).code;
+            assert!(
+                code == Some(0) || (code == Some(1) && arithmetic == "float"),
+                "{n}"
+            );
+            let digest = |snapshot: &str| {
+                let path = format!("{out}/snapshots/{snapshot}.snapshot");
+                Value::String(
+                    place
+                        .call(&["digest", &path])
+                        .with_code(0)
+                        .stdout
+                        .trim_end()
+                        .to_owned(),
+                )
+            };
+            let manifest = &place.manifest(&out)["digest"];
+            assert_eq!(manifest["initial"], digest("home"));
+            assert_eq!(manifest["turnaround"], digest("turnaround"));
+            assert_eq!(manifest["final"], digest("latest"));
+        }
+    }
+}
+
+#[test]
+fn completions_for_every_shell() {
+    let place = Place::new();
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let ended = place.call(&["completions", shell]).with_code(0);
+        for word in ["loschmidt", "resume", "arithmetic"] {
+            assert!(ended.stdout.contains(word), "{shell}");
+        }
+        assert_eq!(ended.stderr, "");
+    }
+    place.call(&["completions", "cmd"]).refused(2, &["bash"]);
+}
+
+#[test]
+fn help_and_version_are_no_errors() {
+    let place = Place::new();
+    let help = place.call(&["--help"]).with_code(0);
+    for word in [
+        "run",
+        "resume",
+        "scenes",
+        "check",
+        "digest",
+        "completions",
+        "130",
+    ] {
+        assert!(help.stdout.contains(word));
+    }
+    let version = place.call(&["--version"]).with_code(0);
+    assert_eq!(
+        version.stdout,
+        format!("loschmidt {}\n", env!("CARGO_PKG_VERSION"))
+    );
+}
+
+#[test]
+fn mistakes_on_the_command_line_are_told_and_exit_with_2() {
+    let place = Place::new();
+    fs::write(place.join("latin-1.toml"), b"name = \"\xfcber\"\n").expect("a file");
+    fs::create_dir(place.join("folder.toml")).expect("a directory");
+    let calls: [(&[&str], &[&str]); 15] = [
+        (&["run", "dam-brake"], &["dam-brake", "dam-break"]),
+        (&["run", "missing.toml"], &["missing.toml"]),
+        (&["run", "latin-1.toml"], &["latin-1.toml", "UTF-8"]),
+        (&["run", "folder.toml"], &["folder.toml"]),
+        (&["check", "dam-brake"], &["dam-break"]),
+        (&["scenes", "print", "dam-brake"], &["dam-break"]),
+        (&["run"], &["SCENE"]),
+        (&["walk"], &["walk"]),
+        (&["run", "dam-break", "--fast"], &["--fast"]),
+        (&["run", "dam-break", "--threads", "0"], &["--threads"]),
+        (
+            &["run", "dam-break", "--executor", "gpu"],
+            &["serial", "rayon"],
+        ),
+        (
+            &["run", "dam-break", "--arithmetic", "half"],
+            &["fixed", "float"],
+        ),
+        (
+            &["run", "dam-break", "--set", "particle_spacing"],
+            &["particle_spacing"],
+        ),
+        (
+            &["run", "dam-break", "--set", "particle_spacing=-1"],
+            &["--set", "greater than 0", "m"],
+        ),
+        (
+            &["run", "dam-break", "--set", "particle_spcing=0.1"],
+            &["particle_spacing"],
+        ),
+    ];
+    for (arguments, words) in calls {
+        place.call(arguments).refused(2, words);
+    }
+    assert!(!place.join("runs").exists(), "nothing was begun");
+}
+
+#[test]
+fn what_is_no_snapshot_has_no_digest() {
+    let place = Place::new();
+    fs::write(place.join("a.snapshot"), "LSCHSNAP and then something else").expect("a file");
+    place
+        .call(&["digest", "a.snapshot"])
+        .refused(2, &["a.snapshot"]);
+    place.call(&["digest", "missing"]).refused(2, &["missing"]);
+    place.call(&["digest", "."]).refused(2, &["."]);
+}
+
+#[test]
+fn a_scene_far_too_large_is_refused_before_anything_is_allocated() {
+    let place = Place::new();
+    for command in ["run", "check"] {
+        let began = Instant::now();
+        let call = [command, "dam-break", "--set", "particle_spacing=1e-6"];
+        place
+            .call(&call)
+            .refused(2, &["memory", "MiB", "particle_spacing"]);
+        assert!(began.elapsed() < Duration::from_secs(10));
+    }
+    assert!(!place.join("runs").exists());
+}
+
+#[cfg(target_os = "linux")]
+mod interrupted {
+    use super::*;
+    use program::{end, signal, wait_for, wait_for_lines};
+
+    /// Largest memory that a process has held so far, bytes.
+    fn peak(pid: u32) -> u64 {
+        let status = fs::read_to_string(format!("/proc/{pid}/status")).expect("a process");
+        let line = status.lines().find(|line| line.starts_with("VmHWM:"));
+        let words: Vec<&str> = line.expect("a peak").split_whitespace().collect();
+        1024 * words[1].parse::<u64>().expect("kB")
+    }
+
+    #[test]
+    fn the_paper_s_own_dam_break_starts_within_2_gib_and_tells_how_long_it_takes() {
+        let place = Place::new();
+        let child = place.start(&["run", "dam-break", "--out", "a"]);
+        // Two rows: 80 steps of 80,000 particles.
+        wait_for_lines(&place.join("a"), 2);
+        let memory = peak(child.id());
+        signal(&child, "INT");
+        let ended = end(child).refused(130, &["/80000, ", " left; ", "loschmidt resume a"]);
+        println!("{} MiB; {}", memory >> 20, ended.stderr);
+        assert!(memory < 2 << 30);
+        assert_eq!(place.manifest("a")["steps_planned"], 80_000);
+    }
+
+    #[test]
+    fn without_arguments_it_is_the_small_dam_break() {
+        let place = Place::new();
+        let child = place.start(&[]);
+        let run = place.join("runs/dam-break-1");
+        wait_for("a manifest", || run.join("manifest.json").exists());
+        signal(&child, "TERM");
+        end(child).refused(130, &["loschmidt resume runs/dam-break-1"]);
+        let manifest = place.manifest("runs/dam-break-1");
+        assert_eq!(manifest["steps_planned"], 20_000);
+        assert_eq!(
+            manifest["digest"]["initial"],
+            "b613df923636cef25005d7e559dd5ab2"
+        );
+        let scene = fs::read_to_string(run.join("scene.toml")).expect("a scene");
+        assert!(scene.contains("\nparticle_spacing = 0.02 "));
+    }
+}
