@@ -9,12 +9,12 @@
 //! | bytes | what |
 //! |---|---|
 //! | 8 | 0 for fluid, 1 for a wall |
-//! | 8 | id |
+//! | 8 | id; of a wall, the number of fluid particles plus its place in storage |
 //! | 8 each | fluid: every field of the state, in order, component by component |
 //! | 8 each | walls: position, component by component; density field |
 //!
-//! These hashes are added as 128-bit integers, modulo 2^128, so the order of storage is
-//! irrelevant. The digest is H of
+//! These hashes are added as 128-bit integers, modulo 2^128, so the fluid's order of storage is
+//! irrelevant (walls have no id of their own and keep their order). The digest is H of
 //!
 //! | bytes | what |
 //! |---|---|

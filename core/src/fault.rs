@@ -12,18 +12,25 @@ pub enum FaultKind {
     #[error("its velocity left the number range")]
     VelocityRange,
     /// One pair term (or the pull of gravity in one kick) reached 2^51 quanta or was not a number.
-    #[error("the force between it and a neighbour left the number range")]
+    #[error("one of its force or density terms left the number range")]
     TermRange,
     /// The density is zero or negative.
     #[error("its density is not positive")]
     DensityNotPositive,
+    /// The memory lent for a run is of the wrong length; found when the run is set up.
+    #[error("the slice lent for {0} has the wrong length")]
+    Capacity(&'static str),
     /// More neighbours than an integer sum is guaranteed to hold.
     #[error("it has more than {MAX_NEIGHBOURS} neighbours")]
     Crowded,
 }
 
-/// Most terms in one integer sum: each is below 2^51, so their sum stays below 2^63.
-pub const MAX_NEIGHBOURS: u32 = 4095;
+/// Most neighbours in one pass over pairs.
+///
+/// An integer takes at most two passes in one kick (fluid and walls), two terms of gravity, or the
+/// particle's own term and C_a, and the velocity itself: 2 * 2046 + 3 numbers of at most 2^51
+/// each. That is below 2^63, so no sum can wrap back into the range unseen.
+pub const MAX_NEIGHBOURS: u32 = 2046;
 
 /// A particle that could not go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
@@ -34,7 +41,8 @@ pub struct Fault {
     /// Id of the particle; the smallest one where several fail in the same pass. Wall particles
     /// count on from the last fluid particle.
     pub particle: u64,
-    /// Number of the step, counting from 1 over both legs of a run; 0 while it is set up.
+    /// Number of the step, counting from 1 over both legs of a run; 0 while it is set up. Found by
+    /// a measurement, it is the number of the last step.
     pub step: u64,
 }
 
@@ -48,7 +56,9 @@ impl Fault {
             step: 0,
         }
     }
-    pub(crate) fn at_step(self, step: u64) -> Self {
+    /// The same fault in this step.
+    #[must_use]
+    pub fn at_step(self, step: u64) -> Self {
         Self { step, ..self }
     }
     /// Of two faults in one pass, the one that is reported: independent of who finds it first.

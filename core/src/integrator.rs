@@ -69,8 +69,8 @@ pub static PEFRL: Integrator = Integrator {
     ],
 };
 
-/// 1/(4 - 4^(1/3)).
-const P: f64 = 0.414_490_771_794_375_74;
+/// 1/(4 - 4^(1/3)) = 0.41449077179437573714…, to the nearest double.
+const P: f64 = 0.414_490_771_794_375_7;
 
 /// Suzuki's five-fold composition of Störmer–Verlet; the kicks where two copies meet are one entry.
 pub static SUZUKI: Integrator = Integrator {

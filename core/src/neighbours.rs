@@ -143,8 +143,8 @@ impl<'a> CellsView<'a> {
             let mut first = 0;
             let mut rest = row;
             let mut stride = grid.count[0];
-            for d in 1..D {
-                let c = grid.step(d, home[d], (rest % 3) as i64 - 1);
+            for (d, &place) in home.iter().enumerate().skip(1) {
+                let c = grid.step(d, place, (rest % 3) as i64 - 1);
                 rest /= 3;
                 first += c * stride;
                 stride *= grid.count[d];

@@ -20,7 +20,7 @@
 //!
 //! R(x) = (x + 3·2^51) - 3·2^51, for |x| < 2^51.
 //!
-//! In that range x + 3·2^51 lies in [2^52, 2^53), where the spacing of `f64` is one: the addition
+//! In that range x + 3·2^51 lies in (2^52, 2^53), where the spacing of `f64` is one: the addition
 //! itself rounds to an integer, ties to even, and the low bits of the sum hold it. R is odd,
 //! R(-x) = -R(x): the integers nearest to -x are the negatives of those nearest to x, and a tie goes
 //! to the even one of two neighbours, whose negative is even too. All of `+ - * / sqrt` are odd in
@@ -42,7 +42,8 @@ pub type Speed = FixedI64<U40>;
 /// A density, in scene units of 2^d kg/m³.
 pub type Density = FixedI64<U40>;
 
-/// Largest magnitude, in quanta, that rounding accepts and that the state may hold: 2^51.
+/// Bound, in quanta, of what rounding accepts and of what the state may hold: magnitudes below
+/// 2^51. (The last accepted ones, from 2^51 - 1/2 on, round to 2^51 itself.)
 pub const LIMIT_BITS: i64 = 1 << 51;
 const LIMIT: f64 = LIMIT_BITS as f64;
 /// 3·2^51: adding it rounds any |x| < 2^51 to an integer.
@@ -291,7 +292,7 @@ fn exponent_at_least(x: f64) -> i32 {
 }
 
 impl Scale {
-    /// Units that leave headroom: positions up to 4 times `extent` (largest |coordinate|, m),
+    /// Units that leave headroom: positions up to 6 times `extent` (largest |coordinate|, m),
     /// speeds and impulses up to 16 times `speed` (of sound, m/s), density terms up to
     /// 2 times `density` (kg/m³). All three must be positive and finite.
     ///
@@ -299,7 +300,7 @@ impl Scale {
     #[must_use]
     pub fn with_headroom(extent: f64, speed: f64, density: f64) -> Self {
         Self {
-            length_exponent: exponent_at_least(4.0 * extent) - 5,
+            length_exponent: exponent_at_least(6.0 * extent) - 5,
             speed_exponent: exponent_at_least(16.0 * speed) - 11,
             density_exponent: exponent_at_least(2.0 * density) - 11,
         }

@@ -133,6 +133,7 @@ where
             .push(crate::number::Real::from_f64(0.0));
         let _ = self.scratch_impulse.push([A::Speed::ZERO; D]);
         let _ = self.scratch_order.push(0);
+        self.progress.invalidate();
         Ok(())
     }
 
@@ -154,6 +155,7 @@ where
         let _ = self
             .scratch_wall_pressure
             .push(crate::number::Real::from_f64(0.0));
+        self.progress.invalidate();
         Ok(())
     }
 

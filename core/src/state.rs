@@ -128,8 +128,24 @@ impl<A: Arithmetic, const D: usize> State<'_, A, D> {
 
     /// Turns time round: every odd field changes sign. Twice is the identity, bit for bit.
     pub fn reverse(&mut self) {
-        for v in self.velocity.iter_mut().flatten() {
-            *v = v.negated();
+        for (f, field) in self.fields().into_iter().enumerate() {
+            if field.parity == TimeParity::Odd {
+                self.negate(f);
+            }
+        }
+    }
+
+    /// Changes the sign of field number `field`.
+    fn negate(&mut self, field: usize) {
+        fn all<Q: Quantity, const C: usize>(words: &mut [[Q; C]]) {
+            for word in words.iter_mut().flatten() {
+                *word = word.negated();
+            }
+        }
+        match field {
+            0 => all(self.position),
+            1 => all(self.velocity),
+            _ => self.density.iter_mut().for_each(|w| *w = w.negated()),
         }
     }
 }

@@ -12,6 +12,7 @@
 
 #![forbid(unsafe_code)]
 
+mod engine;
 mod executor;
 pub mod frame;
 pub mod output;

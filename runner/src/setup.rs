@@ -153,12 +153,26 @@ pub fn available_memory() -> Option<u64> {
     }
 }
 
+/// Bytes in the unit that suits them: 512 KiB, 29 MiB, 3.2 GiB.
+#[must_use]
+pub fn bytes_for_people(bytes: u64) -> String {
+    let mut value = bytes as f64;
+    for unit in ["bytes", "KiB", "MiB", "GiB", "TiB"] {
+        if value < 1024.0 {
+            let digits = usize::from(value < 10.0 && unit != "bytes");
+            return format!("{value:.digits$} {unit}");
+        }
+        value /= 1024.0;
+    }
+    format!("{value:.0} PiB")
+}
+
 /// A scene that needs more memory than there is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the scene needs about {} MiB of memory and {} MiB are available; choose a larger particle_spacing",
-    needed >> 20,
-    available >> 20
+    "the scene needs about {} of memory and {} are available; choose a larger particle_spacing",
+    bytes_for_people(*needed),
+    bytes_for_people(*available)
 )]
 pub struct MemoryError {
     /// Bytes.

@@ -1,7 +1,13 @@
 //! The claims of Loschmidt, as tests: see `tests/`. Here is what they share.
 //!
-//! - [`permitted_runs`]: what whole runs are permitted, with reasons.
+//! - [`permitted`]: every error that a test allows, in one place, each with its reason. A test that
+//!   is not listed there compares bits.
+//! - [`small`]: small systems in `heapless` vectors, the same recipe for every scheme, dimension
+//!   and arithmetic.
+//! - [`generator`]: numbers that look random and are the same everywhere.
 //! - [`program`]: scenes, players and runs in a line each.
 
-pub mod permitted_runs;
+pub mod generator;
+pub mod permitted;
 pub mod program;
+pub mod small;

@@ -2,7 +2,7 @@
 //! its integrator.
 
 use loschmidt_runner::run::{Angular, EnergyBalance, Row};
-use loschmidt_tests::permitted_runs::{
+use loschmidt_tests::permitted::{
     ANGULAR_MOMENTUM_OF_A_RUN, ENERGY_FALL_WITH_DUMMIES, ENERGY_FALL_WITH_VERLET,
 };
 use loschmidt_tests::program::{assert_same_way_back, run, scene, serial, threads};

@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
 
-/// Sixteen particles on their way out of the range of positions, 2 m here.
+/// Sixteen particles on their way out of the range of positions, 4 m here.
 fn thrown() -> Scene {
     scene_of(
         r#"
         particle_spacing = 0.1
-        turnaround = 0.3
+        turnaround = 1.0
         fluid.sound_speed = 40
         [[region]]
         kind = "fluid"

@@ -84,7 +84,7 @@ pub struct RunArguments {
     /// Numbers of the state: fixed point, or floating point as the experiment that fails
     #[arg(long, default_value = "fixed")]
     pub arithmetic: ArithmeticName,
-    /// Directory to write to; it must not exist [default: runs/<scene>-<n>]
+    /// Directory to write to; it must not exist [default: runs/SCENE-N, the next free N]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace an earlier run in the directory

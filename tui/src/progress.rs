@@ -90,9 +90,9 @@ impl Display {
 
 fn energies(progress: &Progress<'_>) -> String {
     let (row, home) = (progress.row, progress.home);
+    // Short enough for one line of 80 columns: a wrapped bar cannot be redrawn cleanly.
     format!(
-        "t = {:.4} s  kinetic {:.1} J  internal {:.1} J  gravitational {:.1} J  wall {:.1} J  \
-         total - initial {:+.2e} J  entropy {:.3}",
+        "t {:.4} s  J: kin {:.0} int {:.0} grav {:.0} wall {:.0} error {:+.1e}  S {:.3}",
         row.time_s,
         row.kinetic,
         row.internal,

@@ -59,6 +59,19 @@ fn joule(energy: f64) -> String {
     format!("{energy:.3} J")
 }
 
+/// Why a run cannot be expected to return.
+fn reason(outcome: &Outcome) -> &'static str {
+    match (outcome.model.as_str(), outcome.arithmetic.as_str()) {
+        ("standard", _) => {
+            " The standard scheme is not symmetric in time; model = \"symplectic\" returns."
+        }
+        (_, "float") => {
+            " Floating-point sums are rounded differently on the way back; --arithmetic fixed returns."
+        }
+        _ => "",
+    }
+}
+
 /// The sentence that says whether time came back.
 pub fn sentence(outcome: &Outcome) -> String {
     let steps = outcome.steps;
@@ -69,10 +82,11 @@ pub fn sentence(outcome: &Outcome) -> String {
             steps / 2
         ),
         Some(false) => format!(
-            "Time did not come back: after {} steps out and {} back, a particle is up to {:.3e} m from home.",
+            "Time did not come back: after {} steps out and {} back, a particle is up to {:.3e} m from home.{}",
             steps / 2,
             steps / 2,
-            outcome.max_return_error_m.unwrap_or(f64::NAN)
+            outcome.max_return_error_m.unwrap_or(f64::NAN),
+            reason(outcome)
         ),
         None => {
             format!("The run ended after {steps} steps; it was not asked to come all the way back.")

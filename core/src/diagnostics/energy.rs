@@ -6,7 +6,8 @@
 //! - wall          Σ m E (s - 1)²/4 (footnote 3: E per mass), or the dummies' m ε(ρ)
 
 use crate::exact::ExactSum;
-use crate::fault::Fault;
+use crate::executor::Ids;
+use crate::fault::{Fault, FaultKind};
 use crate::model::{Forces, UNITS};
 use crate::number::{Arithmetic, Quantity, Real};
 use crate::pairs::{gather, separation};
@@ -39,17 +40,25 @@ impl Energies {
     ) -> Result<Self, Fault> {
         let p = forces.parameters();
         let c2 = p.sound_speed * p.sound_speed;
-        let internal = |densities: &[A::Density]| {
-            let sum = densities.iter().fold(ExactSum::default(), |sum, rho| {
+        let internal = |densities: &[A::Density], ids: Ids<'_>| {
+            let mut sum = ExactSum::default();
+            let mut first: Option<Fault> = None;
+            for (i, rho) in densities.iter().enumerate() {
                 let x = forces.relative_density(*rho).to_f64();
-                sum.plus(p.state_equation.internal_energy(x))
-            });
-            p.mass * c2 * sum.value()
+                if x > 0.0 {
+                    sum = sum.plus(p.state_equation.internal_energy(x));
+                } else {
+                    let fault = Fault::new(FaultKind::DensityNotPositive, ids.get(i));
+                    first = Some(first.map_or(fault, |other| other.first(fault)));
+                }
+            }
+            first.map_or(Ok(p.mass * c2 * sum.value()), Err)
         };
-        let fluid = internal(system.scratch.density);
+        let fluid = internal(system.scratch.density, Ids::Listed(system.state.id))?;
         let mut wall = 0.0;
         if forces.has_dummies(system) {
-            wall += internal(system.scratch.wall_density);
+            let ids = Ids::From(system.state.len() as u64);
+            wall += internal(system.scratch.wall_density, ids)?;
         }
         if let Some((energy, pass)) = forces.wall_energy_pass() {
             let walls = forces.walls(system, UNITS);

@@ -39,7 +39,9 @@ impl Diagnostics {
     /// Measures the system; brings its densities up to date, and changes nothing else.
     ///
     /// # Errors
-    /// As [`Model::update_density`].
+    /// As [`Model::update_density`], and [`crate::FaultKind::DensityNotPositive`], which has no
+    /// internal energy: a row that ends with a drift leaves densities that no kick has looked at.
+    /// The fault carries the number of steps that led to this state.
     pub fn measure<A, M, E, const D: usize>(
         model: &M,
         system: &mut System<'_, A, D>,
@@ -50,7 +52,10 @@ impl Diagnostics {
         M: Model<A, D>,
         E: Executor,
     {
-        model.update_density(system, exec)?;
+        let step = system.progress.step;
+        model
+            .update_density(system, exec)
+            .map_err(|fault| fault.at_step(step))?;
         let forces = model.forces();
         let p = forces.parameters();
         let (lq, sq) = (p.scale.length_quantum(), p.scale.speed_quantum());
@@ -64,7 +69,7 @@ impl Diagnostics {
             .max()
             .map_or(0.0, |x| x as f64 * lq);
         Ok(Self {
-            energies: Energies::measure(forces, system)?,
+            energies: Energies::measure(forces, system).map_err(|fault| fault.at_step(step))?,
             histogram: SpeedHistogram::measure(system, p.sound_speed, sq),
             momentum: momentum_quanta.map(|q| q as f64 * (sq * p.mass)),
             angular_momentum: angular_momentum_quanta.map(|q| q as f64 * (sq * lq * p.mass)),

@@ -6,6 +6,7 @@
 //! its own short step.
 
 mod forces;
+mod kick_drift;
 mod parameters;
 mod passes;
 mod standard;
@@ -40,7 +41,8 @@ pub enum Reversibility {
 pub trait Model<A: Arithmetic, const D: usize>: Sync + Sized {
     /// Name used in scenes and snapshots.
     const NAME: &'static str;
-    /// Part of the type: no caller can reverse an irreversible model by mistake.
+    /// Part of the type, so that whoever promises a way back can ask before promising. Reversing
+    /// the velocities is allowed for every model.
     const REVERSIBILITY: Reversibility;
     /// Meaning of the state's density field.
     const DENSITY_ROLE: DensityRole;
@@ -55,7 +57,7 @@ pub trait Model<A: Arithmetic, const D: usize>: Sync + Sized {
     /// step 0; never again, neither on reversal nor on resumption.
     ///
     /// # Errors
-    /// Density terms out of range, too many neighbours.
+    /// Slices of the wrong length, density terms out of range, too many neighbours.
     fn initialise<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E)
     -> Result<(), Fault>;
 

@@ -111,55 +111,45 @@ impl<const D: usize> Parameters<D> {
     /// # Errors
     /// The first parameter that is not finite or not in its range.
     pub fn check(&self) -> Result<(), SetupError> {
-        let mut positive = [
-            ("support_radius", self.support_radius),
-            ("time_step", self.time_step),
-            ("mass", self.mass),
-            ("reference_density", self.reference_density),
-            ("sound_speed", self.sound_speed),
-            ("wall energy", 1.0),
-            ("wall radius", 1.0),
-        ];
-        let mut not_negative = [("wall softening", 0.0), ("central softening", 0.0)];
+        let positive = |name, value: f64| accept(name, value, value > 0.0);
+        let not_negative = |name, value: f64| accept(name, value, value >= 0.0);
+        let any = |name, value: f64| accept(name, value, true);
+        positive("support_radius", self.support_radius)?;
+        positive("time_step", self.time_step)?;
+        positive("mass", self.mass)?;
+        positive("reference_density", self.reference_density)?;
+        positive("sound_speed", self.sound_speed)?;
         if let Wall::Conservative {
             energy,
             radius,
             softening,
         } = self.wall
         {
-            positive[5].1 = energy;
-            positive[6].1 = radius;
-            not_negative[0].1 = softening;
+            positive("wall.energy", energy)?;
+            positive("wall.radius", radius)?;
+            not_negative("wall.softening", softening)?;
         }
-        let mut finite = self.gravity.uniform;
+        for g in self.gravity.uniform {
+            any("gravity.uniform", g)?;
+        }
         if let Some(central) = &self.gravity.central {
-            not_negative[1].1 = central.softening;
-            for (f, c) in finite.iter_mut().zip(central.centre) {
-                *f += 0.0 * c; // a NaN or an infinity shows
+            for x in central.centre {
+                any("gravity.central.centre", x)?;
             }
-            finite[0] += 0.0 * central.strength;
+            any("gravity.central.strength", central.strength)?;
+            not_negative("gravity.central.softening", central.softening)?;
         }
-        let bad = |(name, value)| Err(SetupError::Parameter { name, value });
-        for (name, value) in positive {
-            if !(value > 0.0 && value.is_finite()) {
-                return bad((name, value));
-            }
-        }
-        for (name, value) in not_negative {
-            if !(value >= 0.0 && value.is_finite()) {
-                return bad((name, value));
-            }
-        }
-        for value in finite {
-            if !value.is_finite() {
-                return bad(("gravity", value));
-            }
-        }
-        for value in self.extent {
-            if !(value >= 0.0 && value.is_finite()) {
-                return bad(("extent", value));
-            }
+        for size in self.extent {
+            not_negative("extent", size)?;
         }
         Ok(())
+    }
+}
+
+fn accept(name: &'static str, value: f64, in_range: bool) -> Result<(), SetupError> {
+    if in_range && value.is_finite() {
+        Ok(())
+    } else {
+        Err(SetupError::Parameter { name, value })
     }
 }

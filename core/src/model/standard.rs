@@ -15,7 +15,7 @@
 use super::{Forces, Model, Reversibility};
 use crate::executor::{Executor, Ids, Targets};
 use crate::fault::Fault;
-use crate::number::Arithmetic;
+use crate::number::{Arithmetic, Quantity};
 use crate::state::{DensityRole, System};
 
 /// Weakly compressible SPH as usually discretised.
@@ -90,10 +90,16 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
     }
 
     fn initialise<E: Executor>(&self, system: &mut System<'_, A, D>, _: &E) -> Result<(), Fault> {
+        self.forces.check_capacity(system)?;
         system.progress.invalidate();
         let rho = self.forces.reference_density();
         system.state.density.fill(rho);
-        system.walls.density.fill(rho);
+        let of_walls = if self.forces.has_dummies(system) {
+            rho
+        } else {
+            A::Density::ZERO
+        };
+        system.walls.density.fill(of_walls);
         Ok(())
     }
 

@@ -77,6 +77,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         exec: &E,
     ) -> Result<(), Fault> {
         let forces = &self.forces;
+        self.forces.check_capacity(system)?;
         system.progress.invalidate();
         forces.sort(system);
         let sum = core::mem::take(&mut system.scratch.density);

@@ -223,7 +223,7 @@ impl Run {
     ) -> Result<Outcome, RunError> {
         let total = self.plan.total();
         let particles = self.player.home().id.len() as u64;
-        let piece = (PIECE / particles.max(1)).max(1);
+        let piece = PIECE / particles.max(1);
         self.observe(&mut observe);
         while self.player.steps_taken() < total {
             if stop.load(Ordering::Relaxed) {
@@ -233,7 +233,7 @@ impl Run {
             if step == self.plan.out {
                 self.player.turn();
             }
-            let steps = (self.plan.next(step) - step).min(piece);
+            let steps = self.plan.next(step, piece) - step;
             let before = Instant::now();
             let result = self.player.advance(steps);
             self.loop_time += before.elapsed();

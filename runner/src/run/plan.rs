@@ -97,12 +97,13 @@ impl Plan {
         }
     }
 
-    /// The first step after `step` at which something is due.
+    /// The first step after `step` at which something is due, or the last of the next `piece` steps.
     #[must_use]
-    pub fn next(&self, step: u64) -> u64 {
-        (step + 1..self.total())
+    pub fn next(&self, step: u64, piece: u64) -> u64 {
+        let last = step.saturating_add(piece.max(1)).min(self.total());
+        (step + 1..last)
             .find(|&s| self.due(s) != Due::default())
-            .unwrap_or(self.total())
+            .unwrap_or(last)
     }
 
     /// Frames due up to and including `step`, as the steps they are taken at.

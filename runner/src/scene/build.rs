@@ -227,7 +227,30 @@ impl<'a> Builder<'a> {
             regions,
         };
         self.times(top, &scene);
+        self.composition(top, &scene);
         scene
+    }
+
+    /// The standard scheme is a step of its own: another integrator would be ignored silently.
+    fn composition(&mut self, top: Here<'a>, scene: &Scene) {
+        let verlet = super::Integrator::StormerVerlet;
+        if scene.model == super::Model::Standard
+            && scene.integrator != verlet
+            && let Some(entry) = top.table.get("integrator")
+            && top.table.get("model").is_some()
+        {
+            self.conflict(
+                format!(
+                    "`integrator = \"{}\"` does not go with `model = \"standard\"`",
+                    scene.integrator.word()
+                ),
+                entry.node.span,
+                format!(
+                    "the standard scheme has a kick, a drift and a kick of its own: write `integrator = \"{}\"`, or `model = \"symplectic\"`",
+                    verlet.word()
+                ),
+            );
+        }
     }
 
     fn name(&mut self, top: Here<'a>) -> String {

@@ -39,7 +39,10 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         back => format!("{} out and {back} back", plan.out),
     };
     line("steps", format!("{} ({legs})", plan.total()));
-    line("memory", format!("about {} MiB", needed.div_ceil(1 << 20)));
+    line(
+        "memory",
+        format!("about {}", setup::bytes_for_people(needed)),
+    );
     line(
         "time",
         format!(

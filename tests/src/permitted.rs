@@ -1,0 +1,67 @@
+//! Every error that a test permits, with its reason. Whatever is promised exactly is compared
+//! exactly and has no line here.
+
+/// ∫ W dV - 1 by Simpson's rule on 2000 intervals: a polynomial of degree 7 leaves 1e-13, the sum
+/// of 2000 doubles as much again.
+pub const KERNEL_INTEGRAL: f64 = 1e-12;
+
+/// (W'/r) h²/α against a central difference of W over 2e-5 h: truncation (1e-5)² times the third
+/// derivative (up to 120), and rounding 1e-16/1e-5 divided by r/h >= 0.05.
+pub const KERNEL_DERIVATIVE: f64 = 1e-7;
+
+/// Sum of the coefficients of a table, in units of the time step: the rounding of at most six.
+pub const COEFFICIENT_SUM: f64 = 4.0 * f64::EPSILON;
+
+/// Deviation of a measured order of accuracy from its name: the next term of the error, relative
+/// to the leading one, at steps of 1/40 to 1/320 of the time scale of the orbit.
+pub const ORDER: f64 = 0.15;
+
+/// Angular momentum over N speed x length quanta per step: half a quantum in the position and, for
+/// each neighbour, half a quantum in each velocity component, times a lever arm. Relative to
+/// Σ m |x||v| it is below this for a few hundred steps.
+pub const ANGULAR_MOMENTUM: f64 = 1e-10;
+
+/// A force against a central difference of the energy over 2^-19 m, relative to the largest
+/// component: truncation (2e-6 m / 0.2 m)² ~ 1e-10, rounding of densities (2^-40 kg/m³) 1e-9, the
+/// velocity quantum over dt 1e-9; ten times the sum.
+pub const FORCE: f64 = 1e-7;
+
+/// dε/dx against p/x² by a central difference over 2e-5, relative to 1: truncation 1e-10 times a
+/// third derivative (up to 1e2), rounding 1e-16/1e-5.
+pub const STATE_EQUATION: f64 = 1e-7;
+
+/// Entropy of quantiles of the Maxwellian in 100 bins minus the equilibrium formula: Δv²/T terms
+/// of the midpoint rule, and bins of the tail with one or no particle.
+pub const ENTROPY: f64 = 0.02;
+
+/// kT/m recovered from the histogram of such quantiles, relative: Δv²/12T of the bins, 1/N.
+pub const TEMPERATURE: f64 = 0.01;
+
+/// The same with one particle in a hundred far too fast: the histogram lies 1 % lower, and the fit
+/// makes up for some of it.
+pub const TEMPERATURE_WITH_OUTLIERS: f64 = 0.05;
+
+/// Σ f_k Δv - 1: the rounding of a hundred terms.
+pub const HISTOGRAM_SUM: f64 = 100.0 * f64::EPSILON;
+
+/// The equilibrium formulas against Simpson's rule on 4000 intervals up to 12 thermal speeds.
+pub const ENTROPY_INTEGRAL: f64 = 1e-6;
+
+/// Fixed against floating point after one step from rest, in quanta: half a quantum for each of up
+/// to 60 terms of velocity and density, and what the density's error does to the pressure.
+pub const ONE_STEP_QUANTA: f64 = 64.0;
+
+/// How far the ratio of two differences between the schemes, at steps of which one is half the
+/// other, lies from 2: the terms of second order.
+pub const FIRST_ORDER_RATIO: f64 = 0.2;
+
+/// Angular momentum of the rotating drop over 3000 steps, relative: half a quantum in each of some
+/// 30 pair terms, positions and velocities, per particle and step, adds up to 1e-12.
+pub const ANGULAR_MOMENTUM_OF_A_RUN: f64 = 1e-8;
+
+/// Least factor by which the energy error of the dam break falls with a fourth of the time step: 16
+/// for a scheme of second order, less what two chaotic flows differ in.
+pub const ENERGY_FALL_WITH_VERLET: f64 = 9.0;
+
+/// The same for half the time step with dummy walls: 4, less the same.
+pub const ENERGY_FALL_WITH_DUMMIES: f64 = 3.0;
