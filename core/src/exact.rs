@@ -17,6 +17,9 @@ impl<R: Real> Accumulate<R> for ExactSum {
     fn accumulate(self, term: R) -> Option<Self> {
         Some(self.plus(term.to_f64()))
     }
+    fn plus_quanta(self, quanta: i64) -> Self {
+        Self(self.0.saturating_add(i128::from(quanta) << FRACTION_BITS))
+    }
 }
 
 impl ExactSum {

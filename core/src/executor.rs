@@ -4,6 +4,7 @@
 //! holds them all to equal bits.
 
 use crate::fault::{Fault, FaultKind};
+use crate::neighbours::{Cells, Grid};
 use crate::number::Arithmetic;
 use crate::pairs::{PairPass, Sources, gather};
 
@@ -54,6 +55,20 @@ pub trait Executor {
         items: &mut [T],
         f: impl Fn(usize, &mut T) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault>;
+
+    /// Makes the neighbours of the fluid findable after it has moved: sorts it into `cells`, or into
+    /// whatever the executor finds them in. With `for_others`, particles of another set (walls) will
+    /// look for the fluid too, in `cells`.
+    fn locate<A: Arithmetic, const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        position: &[[A::Length; D]],
+        cells: &mut Cells<'_>,
+        for_others: bool,
+    ) {
+        let _ = for_others;
+        cells.sort(grid, position);
+    }
 
     /// Adds to every `out[i]` the terms of target i with all sources.
     ///

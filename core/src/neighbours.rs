@@ -38,6 +38,12 @@ impl<const D: usize> Grid<D> {
         }
     }
 
+    /// The reach, in quanta, rounded up.
+    #[must_use]
+    pub fn reach(&self) -> i64 {
+        self.cell - 1
+    }
+
     /// Number of buckets.
     #[must_use]
     pub fn buckets(&self) -> usize {

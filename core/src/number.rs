@@ -143,12 +143,18 @@ impl<R: Real> Lanes<R> for R {
 pub trait Accumulate<R>: Copy + Send + Sync {
     /// The sum with one more term, rounded once; `None` where the term is out of range.
     fn accumulate(self, term: R) -> Option<Self>;
+    /// The sum with whole quanta that were rounded and summed elsewhere.
+    fn plus_quanta(self, quanta: i64) -> Self;
 }
 
 impl<R: Real, Q: Quantity> Accumulate<R> for Q {
     #[inline]
     fn accumulate(self, term: R) -> Option<Self> {
         self.add_rounded(term)
+    }
+    #[inline]
+    fn plus_quanta(self, quanta: i64) -> Self {
+        self.plus(Self::from_whole_quanta(quanta))
     }
 }
 
@@ -160,6 +166,8 @@ pub trait Quantity: Copy + Default + Debug + PartialEq + Send + Sync + 'static {
     fn quanta<R: Real>(self) -> R;
     /// The nearest whole number of quanta, for exact diagnostics.
     fn whole_quanta(self) -> i64;
+    /// So many quanta.
+    fn from_whole_quanta(quanta: i64) -> Self;
     /// `self - other` in quanta, exact for fixed point within range.
     fn difference<R: Real>(self, other: Self) -> R;
     /// `self + R(x)` with x in quanta; `None` where |x| >= 2^51 or x is a NaN.
@@ -187,6 +195,10 @@ impl<Frac: Unsigned + LeEqU64 + Send + Sync + 'static> Quantity for FixedI64<Fra
     #[inline]
     fn whole_quanta(self) -> i64 {
         self.to_bits()
+    }
+    #[inline]
+    fn from_whole_quanta(quanta: i64) -> Self {
+        Self::from_bits(quanta)
     }
     #[inline]
     fn difference<R: Real>(self, other: Self) -> R {
@@ -234,6 +246,10 @@ impl Quantity for f64 {
     #[inline]
     fn whole_quanta(self) -> i64 {
         libm::rint(self) as i64
+    }
+    #[inline]
+    fn from_whole_quanta(quanta: i64) -> Self {
+        quanta as f64
     }
     #[inline]
     fn difference<R: Real>(self, other: Self) -> R {

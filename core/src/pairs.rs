@@ -36,6 +36,9 @@ pub trait PairPass<A: Arithmetic, const D: usize, const READ: usize, const TERM:
     const PARITY: Parity;
     /// Squared distance, in length quanta, from which on the term is zero.
     fn reach_squared(&self) -> A::Real;
+    /// A number that no component of a term exceeds in magnitude where no word of either particle
+    /// exceeds `largest`; infinite where there is none.
+    fn bound(&self, largest: &[A::Real; READ]) -> f64;
     /// The term, in quanta of the sum and not yet rounded, for x_ij = x_i - x_j (length quanta),
     /// r² = |x_ij|² and the words of i and j in quanta.
     fn term<L: Lanes<A::Real>>(

@@ -1,6 +1,7 @@
 //! The engine behind every [`Simulation`]: a model, its memory and an executor of known types.
 
 use crate::executor::{AnyExecutor, ExecutorKind, Rayon};
+use crate::fast::Fast;
 use crate::frame::Frame;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::InitialState;
@@ -54,6 +55,9 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
         let executor = match options.executor {
             ExecutorKind::Serial => AnyExecutor::Serial(Serial),
             ExecutorKind::Rayon => AnyExecutor::Rayon(Rayon::new(options.threads)?),
+            ExecutorKind::Fast => {
+                AnyExecutor::Fast(Box::new(Fast::new(options.threads, options.backend)?))
+            }
         };
         let mut engine = Self {
             model: M::new(forces),
@@ -71,6 +75,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
         match &self.executor {
             AnyExecutor::Serial(exec) => task.run(model, &mut system, exec),
             AnyExecutor::Rayon(exec) => exec.install(|| task.run(model, &mut system, exec)),
+            AnyExecutor::Fast(exec) => exec.install(|| task.run(model, &mut system, &**exec)),
         }
     }
 

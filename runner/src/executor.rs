@@ -5,6 +5,7 @@
 //! on a distance (two candidates in three are out of reach, and nothing predicts which), the second
 //! adds their terms. They are the terms of the core's plain `gather`, in the same order.
 
+use crate::fast::Fast;
 use loschmidt_core::executor::Targets;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
 use loschmidt_core::pairs::{PairPass, Sources, accumulate, read, separation};
@@ -136,19 +137,31 @@ where
 pub enum ExecutorKind {
     /// The core's reference, one thread.
     Serial,
-    /// All threads asked for.
-    #[default]
+    /// The reference's traversal on all threads asked for.
     Rayon,
+    /// Vectorised half-pair sweeps on all threads asked for.
+    #[default]
+    Fast,
 }
 
 impl ExecutorKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Serial, Self::Rayon, Self::Fast];
+
     /// The name used on the command line and in outputs.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Serial => "serial",
             Self::Rayon => "rayon",
+            Self::Fast => "fast",
         }
+    }
+
+    /// The executor of this name.
+    #[must_use]
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 }
 
@@ -157,4 +170,5 @@ impl ExecutorKind {
 pub(crate) enum AnyExecutor {
     Serial(Serial),
     Rayon(Rayon),
+    Fast(Box<Fast>),
 }

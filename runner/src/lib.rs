@@ -6,7 +6,8 @@
 //!
 //! 1. [`scene`]: the scene language, its errors, the catalogue.
 //! 2. [`setup`]: a scene's parameters for the core, and the memory it takes.
-//! 3. [`simulation`]: a simulation without type parameters; [`Rayon`], the parallel executor.
+//! 3. [`simulation`]: a simulation without type parameters; [`Rayon`] and [`fast`], the parallel
+//!    executors.
 //! 4. [`player`]: moves along time in both directions. Going back is integrating back.
 //! 5. [`run`]: out, turn, back, and what is recorded; [`output`]: the files.
 
@@ -14,6 +15,7 @@
 
 mod engine;
 mod executor;
+pub mod fast;
 pub mod frame;
 pub mod output;
 pub mod player;

@@ -57,7 +57,8 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
         wall: wall(scene),
         integrator: integrator(scene.integrator),
         scale: Scale::with_headroom(
-            bounds.farthest,
+            // A drop that is smaller than its kernel must still leave room for the kernel.
+            bounds.farthest.max(scene.support_radius()),
             scene.fluid.sound_speed,
             scene.fluid.reference_density,
         ),

@@ -2,6 +2,7 @@
 
 use crate::engine::Engine;
 use crate::executor::ExecutorKind;
+use crate::fast::Backend;
 use crate::frame::Frame;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::InitialState;
@@ -16,6 +17,8 @@ use thiserror::Error;
 pub struct Options {
     /// Who walks the particles.
     pub executor: ExecutorKind,
+    /// Instructions of the fast executor.
+    pub backend: Backend,
     /// Threads of a parallel executor.
     pub threads: NonZeroUsize,
     /// Numbers of the state.
@@ -28,6 +31,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             executor: ExecutorKind::default(),
+            backend: Backend::best(),
             threads: std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN),
             arithmetic: ArithmeticKind::default(),
             shuffle: None,
@@ -36,12 +40,22 @@ impl Default for Options {
 }
 
 impl Options {
+    /// The instruction set of the pair sums, or `serial` where they are summed by the plain
+    /// traversal: in the other executors, and in floating point, whose sums have an order.
+    #[must_use]
+    pub fn backend_at_work(&self) -> &'static str {
+        match (self.executor, self.arithmetic) {
+            (ExecutorKind::Fast, ArithmeticKind::Fixed) => self.backend.name(),
+            _ => "serial",
+        }
+    }
+
     /// Threads that the executor uses: one if it is serial.
     #[must_use]
     pub fn threads_at_work(&self) -> usize {
         match self.executor {
             ExecutorKind::Serial => 1,
-            ExecutorKind::Rayon => self.threads.get(),
+            ExecutorKind::Rayon | ExecutorKind::Fast => self.threads.get(),
         }
     }
 }

@@ -42,6 +42,7 @@ pub fn threads(n: usize) -> Options {
         threads: NonZeroUsize::new(n).expect("a thread at least"),
         arithmetic: ArithmeticKind::Fixed,
         shuffle: None,
+        ..Options::default()
     }
 }
 

@@ -1,7 +1,9 @@
 //! The command line.
 
+use crate::exit::{Failure, USAGE};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use loschmidt_runner::fast::Backend;
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -59,11 +61,14 @@ pub struct SceneArguments {
 #[derive(Args, Debug)]
 pub struct WorkArguments {
     /// Threads of the executor [default: as many as there are processors]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<NonZeroUsize>,
-    /// Who walks the particles: the one-threaded reference or all threads [default: rayon]
+    /// Who walks the particles [default: fast]
     #[arg(long)]
     pub executor: Option<ExecutorName>,
+    /// Instruction set of the fast executor [default: the best this processor has]
+    #[arg(long)]
+    pub backend: Option<BackendName>,
     /// Print neither progress nor tables
     #[arg(long, short)]
     pub quiet: bool,
@@ -117,13 +122,25 @@ pub enum ScenesCommand {
     Print(SceneArguments),
 }
 
+/// Most threads that are started: more than any machine has processors for.
+const MOST_THREADS: usize = 1024;
+
+fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    match text.parse::<NonZeroUsize>() {
+        Ok(n) if n.get() <= MOST_THREADS => Ok(n),
+        _ => Err(format!("allowed: a whole number from 1 to {MOST_THREADS}")),
+    }
+}
+
 /// Names of the executors.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum ExecutorName {
-    /// The reference, one thread
+    /// The plain reference, one thread
     Serial,
-    /// All threads
+    /// The reference's traversal on all threads
     Rayon,
+    /// Every pair once, in vector instructions, on all threads
+    Fast,
 }
 
 impl From<ExecutorName> for ExecutorKind {
@@ -131,6 +148,28 @@ impl From<ExecutorName> for ExecutorKind {
         match name {
             ExecutorName::Serial => Self::Serial,
             ExecutorName::Rayon => Self::Rayon,
+            ExecutorName::Fast => Self::Fast,
+        }
+    }
+}
+
+/// Names of the instruction sets.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum BackendName {
+    /// x86-64-v4, 8 doubles at once
+    Avx512,
+    /// x86-64-v3, 4 doubles at once
+    Avx2,
+    /// What every processor has
+    Baseline,
+}
+
+impl From<BackendName> for Backend {
+    fn from(name: BackendName) -> Self {
+        match name {
+            BackendName::Avx512 => Self::Avx512,
+            BackendName::Avx2 => Self::Avx2,
+            BackendName::Baseline => Self::Baseline,
         }
     }
 }
@@ -155,12 +194,31 @@ impl From<ArithmeticName> for ArithmeticKind {
 
 impl WorkArguments {
     /// The options, where nothing is given those of `otherwise`.
-    pub fn options(&self, otherwise: Options) -> Options {
-        Options {
+    ///
+    /// # Errors
+    /// The processor does not have the instruction set asked for.
+    pub fn options(&self, otherwise: Options) -> Result<Options, Failure> {
+        let backend = self.backend.map_or(otherwise.backend, Into::into);
+        if !backend.is_available() {
+            let names = Backend::ALL
+                .into_iter()
+                .filter(|backend| backend.is_available())
+                .map(Backend::name);
+            return Err(Failure::new(
+                USAGE,
+                format!(
+                    "error: this processor has no {}\nhelp: it has {}",
+                    backend.name(),
+                    names.collect::<Vec<_>>().join(", ")
+                ),
+            ));
+        }
+        Ok(Options {
             executor: self.executor.map_or(otherwise.executor, Into::into),
             threads: self.threads.unwrap_or(otherwise.threads),
+            backend,
             ..otherwise
-        }
+        })
     }
 }
 
@@ -175,6 +233,7 @@ impl Default for RunArguments {
             work: WorkArguments {
                 threads: None,
                 executor: None,
+                backend: None,
                 quiet: false,
                 json: false,
             },

@@ -185,14 +185,15 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
     }
 
     /// Sorts the fluid into its cells, and the walls the first time.
-    pub(super) fn sort(&self, system: &mut System<'_, A, D>) {
+    pub(super) fn sort<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) {
+        let dummies = self.has_dummies(system);
         let System {
             state,
             walls,
             scratch,
             progress,
         } = system;
-        scratch.cells.sort(&self.grid, state.position);
+        exec.locate::<A, D>(&self.grid, state.position, &mut scratch.cells, dummies);
         if !progress.walls_sorted {
             scratch.wall_cells.sort(&self.wall_grid, walls.position);
             progress.walls_sorted = true;

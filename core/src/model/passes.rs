@@ -34,6 +34,10 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, 1> for DensityPass<A::Real
     fn reach_squared(&self) -> A::Real {
         self.reach_squared
     }
+    fn bound(&self, _: &[A::Real; 0]) -> f64 {
+        let zero = A::Real::from_f64(0.0);
+        (self.kernel.value(zero) * self.mass).to_f64().abs()
+    }
     #[inline(always)]
     fn term<L: Lanes<A::Real>>(&self, _: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
         [self.kernel.value(r2.root()) * L::splat(self.mass)]
@@ -54,6 +58,12 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 1, D> for PressurePass<A::Rea
     #[inline(always)]
     fn reach_squared(&self) -> A::Real {
         self.reach_squared
+    }
+    fn bound(&self, largest: &[A::Real; 1]) -> f64 {
+        let zero = A::Real::from_f64(0.0);
+        let slope = (self.kernel.derivative_over_r(zero) * self.reach_squared.sqrt()).to_f64();
+        // Twice for the pair, and a little for roundings.
+        2.001 * largest[0].to_f64() * slope.abs()
     }
     #[inline(always)]
     fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, i: &[L; 1], j: &[L; 1]) -> [L; D] {
@@ -78,6 +88,12 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, D, 1> for ContinuityPass<A::R
     #[inline(always)]
     fn reach_squared(&self) -> A::Real {
         self.reach_squared
+    }
+    fn bound(&self, largest: &[A::Real; D]) -> f64 {
+        let zero = A::Real::from_f64(0.0);
+        let slope = (self.kernel.derivative_over_r(zero) * self.reach_squared.sqrt()).to_f64();
+        let speed = largest.iter().fold(0.0, |sum, v| sum + 2.0 * v.to_f64());
+        1.001 * speed * slope.abs() * self.factor.to_f64().abs()
     }
     #[inline(always)]
     fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, i: &[L; D], j: &[L; D]) -> [L; 1] {
@@ -125,6 +141,9 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, D> for WallPass<A::Real> {
     fn reach_squared(&self) -> A::Real {
         self.geometry.radius_squared
     }
+    fn bound(&self, _: &[A::Real; 0]) -> f64 {
+        f64::INFINITY
+    }
     #[inline(always)]
     fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; D] {
         let (s, softened) = self.geometry.s(r2);
@@ -146,6 +165,9 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, 1> for WallEnergyPass<A::R
     #[inline(always)]
     fn reach_squared(&self) -> A::Real {
         self.geometry.radius_squared
+    }
+    fn bound(&self, _: &[A::Real; 0]) -> f64 {
+        f64::INFINITY
     }
     #[inline(always)]
     fn term<L: Lanes<A::Real>>(&self, _: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {

@@ -30,7 +30,7 @@ impl<A: Arithmetic, const D: usize> Standard<A, D> {
         system: &mut System<'_, A, D>,
         exec: &E,
     ) -> Result<(), Fault> {
-        self.forces.sort(system);
+        self.forces.sort(system, exec);
         let density = core::mem::take(&mut system.state.density);
         let wall_density = core::mem::take(&mut system.walls.density);
         let result = self.continuity_sums(
@@ -111,10 +111,10 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
     fn update_density<E: Executor>(
         &self,
         system: &mut System<'_, A, D>,
-        _: &E,
+        exec: &E,
     ) -> Result<(), Fault> {
         if !system.progress.density_current {
-            self.forces.sort(system);
+            self.forces.sort(system, exec);
             let System {
                 state,
                 walls,

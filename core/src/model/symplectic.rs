@@ -79,7 +79,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         let forces = &self.forces;
         self.forces.check_capacity(system)?;
         system.progress.invalidate();
-        forces.sort(system);
+        forces.sort(system, exec);
         let sum = core::mem::take(&mut system.scratch.density);
         let result = forces.sum_density(system, exec, sum);
         for (c, s) in system.state.density.iter_mut().zip(&*sum) {
@@ -110,7 +110,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
             return Ok(());
         }
         let fresh = !system.progress.walls_sorted;
-        self.forces.sort(system);
+        self.forces.sort(system, exec);
         if fresh {
             self.fix_wall_density(system, exec)?;
         }

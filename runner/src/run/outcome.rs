@@ -100,7 +100,7 @@ pub struct Outcome {
     pub arithmetic: String,
     /// Who walked the particles.
     pub executor: String,
-    /// Which code summed the pairs.
+    /// Instruction set of the pair sums; `serial` for the plain traversal.
     pub backend: String,
     /// Threads at work.
     pub threads: usize,
@@ -225,7 +225,7 @@ impl Outcome {
             integrator: scene.integrator.word().to_owned(),
             arithmetic: options.arithmetic.name().to_owned(),
             executor: options.executor.name().to_owned(),
-            backend: "serial".to_owned(),
+            backend: options.backend_at_work().to_owned(),
             threads,
             digest: Digests {
                 initial: player.home_digest().to_string(),

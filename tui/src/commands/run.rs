@@ -22,7 +22,7 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let options = arguments.work.options(Options {
         arithmetic: arguments.arithmetic.into(),
         ..Options::default()
-    });
+    })?;
     let out = match &arguments.out {
         Some(out) => out.clone(),
         None => free_directory(&scene.name),
@@ -35,7 +35,16 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
 pub fn resume(arguments: &ResumeArguments) -> Result<ExitCode, Failure> {
     let stop = stop_flag()?;
     let work = &arguments.work;
-    let run = Run::resume(&arguments.run, |manifest| work.options(earlier(manifest)))?;
+    // What is asked for is checked before the run is touched; what is not is as before.
+    let asked = work.options(Options::default())?;
+    let run = Run::resume(&arguments.run, |manifest| {
+        let earlier = earlier(manifest);
+        Options {
+            executor: work.executor.map_or(earlier.executor, |_| asked.executor),
+            threads: work.threads.map_or(earlier.threads, |_| asked.threads),
+            ..asked
+        }
+    })?;
     execute(run, work, &stop)
 }
 
@@ -43,11 +52,7 @@ pub fn resume(arguments: &ResumeArguments) -> Result<ExitCode, Failure> {
 fn earlier(manifest: &Manifest) -> Options {
     let default = Options::default();
     Options {
-        executor: if manifest.executor == ExecutorKind::Serial.name() {
-            ExecutorKind::Serial
-        } else {
-            default.executor
-        },
+        executor: ExecutorKind::by_name(&manifest.executor).unwrap_or(default.executor),
         threads: NonZeroUsize::new(manifest.threads).unwrap_or(default.threads),
         ..default
     }

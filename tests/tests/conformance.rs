@@ -1,0 +1,200 @@
+//! Every executor, on every instruction set of this machine and any number of threads, leaves the
+//! bits of the plain reference: the same digests, and where the numbers end the same fault.
+
+use loschmidt_core::Fault;
+use loschmidt_runner::fast::Backend;
+use loschmidt_runner::scene::{InitialState, Scene};
+use loschmidt_runner::{ExecutorKind, Options, Player};
+use loschmidt_tests::generator::Generator;
+use loschmidt_tests::program::{scene, scene_of, serial, threads};
+use proptest::prelude::*;
+use std::num::NonZeroUsize;
+
+fn fast(backend: Backend, n: usize) -> Options {
+    Options {
+        executor: ExecutorKind::Fast,
+        backend,
+        threads: NonZeroUsize::new(n).unwrap(),
+        ..serial()
+    }
+}
+
+/// All executors but the reference. More threads than a scene is divided among are no harm.
+fn others() -> Vec<Options> {
+    let backends = Backend::ALL.into_iter().filter(|b| b.is_available());
+    let fast = backends.flat_map(|b| [1, 2, 5].map(|n| fast(b, n)));
+    [threads(1), threads(3)].into_iter().chain(fast).collect()
+}
+
+/// The digests after these numbers of steps, or the fault on the way.
+fn digests(
+    scene: &Scene,
+    initial: &InitialState,
+    options: Options,
+    steps: &[u64],
+) -> Result<Vec<String>, Fault> {
+    let mut player = match Player::new(scene.clone(), initial.clone(), options) {
+        Ok(player) => player,
+        Err(loschmidt_runner::BuildError::Fault(fault)) => return Err(fault),
+        Err(other) => panic!("{other}"),
+    };
+    let mut found = vec![player.digest().to_string()];
+    for &step in steps {
+        player.advance(step - player.steps_taken())?;
+        // What is looked at on the way changes nothing.
+        player.measure()?;
+        found.push(player.digest().to_string());
+    }
+    Ok(found)
+}
+
+fn all_agree(scene: &Scene, initial: &InitialState, steps: &[u64]) -> Result<(), TestCaseError> {
+    let reference = digests(scene, initial, serial(), steps);
+    for options in others() {
+        let found = digests(scene, initial, options, steps);
+        prop_assert_eq!(&found, &reference, "{:?}", options);
+    }
+    Ok(())
+}
+
+fn check(scene: &Scene, initial: &InitialState, steps: &[u64]) {
+    all_agree(scene, initial, steps).unwrap_or_else(|e| panic!("{e}"));
+}
+
+/// Lattice particles moved by up to a third of a spacing, with velocities: disordered, but not so
+/// violent that the run ends.
+fn disordered(scene: &Scene, seed: u64) -> InitialState {
+    let mut initial = scene.initial_state().unwrap();
+    let mut generator = Generator::new(seed);
+    let axes = scene.dimension.axes();
+    for (x, v) in initial.fluid.iter_mut().zip(&mut initial.fluid_velocity) {
+        for d in 0..axes {
+            x[d] += 0.3 * scene.particle_spacing * generator.signed();
+            v[d] += generator.signed();
+        }
+    }
+    initial
+}
+
+#[test]
+fn on_a_disordered_dam_break_in_the_plane() {
+    // 7,200 particles: several parts for several threads.
+    let set = ["particle_spacing=0.016666666666666666", "cfl=0.05"];
+    let scene = scene("dam-break", &set);
+    check(&scene, &disordered(&scene, 1), &[1, 2, 25]);
+}
+
+#[test]
+fn on_a_disordered_dam_break_in_the_plane_for_many_steps() {
+    let scene = scene("dam-break", &["particle_spacing=0.05", "cfl=0.05"]);
+    check(&scene, &disordered(&scene, 2), &[1, 2, 25, 500]);
+}
+
+#[test]
+fn on_a_disordered_dam_break_in_space() {
+    let scene = scene("dam-break-3d", &["particle_spacing=0.04", "cfl=0.05"]);
+    check(&scene, &disordered(&scene, 3), &[1, 2, 25]);
+}
+
+#[test]
+fn with_dummy_walls_every_integrator_and_the_standard_scheme() {
+    for name in ["dam-break", "dam-break-3d"] {
+        for set in [
+            "wall_model=dummy",
+            "integrator=pefrl",
+            "integrator=suzuki",
+            "model=standard",
+            "fluid.equation_of_state=linear",
+            "density_correction=none",
+        ] {
+            let scene = scene(name, &["particle_spacing=0.1", "cfl=0.05", set]);
+            check(&scene, &disordered(&scene, 4), &[1, 2, 25]);
+        }
+        let set = ["particle_spacing=0.1", "wall_model=dummy", "model=standard"];
+        let scene = scene(name, &set);
+        check(&scene, &disordered(&scene, 5), &[1, 2, 25]);
+    }
+}
+
+#[test]
+fn around_an_attracting_mass() {
+    let scene = scene_of(
+        "particle_spacing = 0.02\nend = 1.0\nfluid.sound_speed = 20\n\
+         gravity.central = { centre = [0.1, 0.2], strength = 2, softening = 0.1 }\n\
+         [[region]]\nkind = \"fluid\"\nlattice = \"hexagonal\"\n\
+         shape.annulus = { centre = [0, 0], inner = 0.3, outer = 0.6 }\n\
+         velocity = { rotation = 3.0 }\n",
+    );
+    check(&scene, &scene.initial_state().unwrap(), &[1, 2, 25, 500]);
+}
+
+#[test]
+fn where_the_numbers_end_the_same_particle_is_named_in_the_same_step() {
+    let scene = scene("dam-break", &["particle_spacing=0.05", "cfl=2.0"]);
+    let initial = scene.initial_state().unwrap();
+    assert!(digests(&scene, &initial, serial(), &[500]).is_err());
+    check(&scene, &initial, &[500]);
+}
+
+#[test]
+fn a_crowd_and_a_crowd_that_is_just_allowed() {
+    let scene = cloud_scene(2);
+    for n in [2046u32, 2047, 2048, 2500] {
+        let fluid: Vec<_> = (0..n).map(|i| [1e-6 * f64::from(i), 0.0, 0.0]).collect();
+        check(&scene, &cloud(fluid), &[1]);
+    }
+}
+
+fn cloud_scene(dimension: usize) -> Scene {
+    let shape = if dimension == 2 { "rectangle" } else { "box" };
+    let (min, max) = ([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]);
+    scene_of(&format!(
+        "dimension = {dimension}\nparticle_spacing = 0.1\nend = 1.0\ntime_step = 1e-5\n\
+         fluid.sound_speed = 10\nwall_model = \"none\"\n\
+         [[region]]\nkind = \"fluid\"\nshape.{shape} = {{ min = {:?}, max = {:?} }}\n",
+        &min[..dimension],
+        &max[..dimension]
+    ))
+}
+
+fn cloud(fluid: Vec<[f64; 3]>) -> InitialState {
+    InitialState {
+        fluid_velocity: vec![[0.0; 3]; fluid.len()],
+        fluid,
+        wall: Vec::new(),
+    }
+}
+
+/// A point of a cloud: anywhere, on the edge of a strip or a cell, or on another point.
+fn point() -> impl Strategy<Value = [f64; 3]> {
+    let anywhere = prop::array::uniform3(-1.0..1.0f64);
+    // The support radius is 0.3: multiples of it and of its 1.1-fold are edges.
+    let edge = prop::array::uniform3(-3..=3i32).prop_map(|k| k.map(|k| 0.33 * f64::from(k)));
+    let place = prop::array::uniform3(-2..=2i32).prop_map(|k| k.map(|k| 0.0375 * f64::from(k)));
+    let clump = prop::array::uniform3(-0.01..0.01f64);
+    prop_oneof![4 => anywhere, 1 => edge, 1 => place, 2 => clump]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    #[test]
+    fn on_random_clouds(
+        points in prop::collection::vec(point(), 1..150),
+        dimension in 2..=3usize,
+        flyer in prop::option::of(1.0..5.0f64),
+        gap in 0.0..0.8f64,
+    ) {
+        let scene = cloud_scene(dimension);
+        let mut points: Vec<_> = points
+            .into_iter()
+            // A gap leaves strips empty.
+            .map(|x| if x[1] > 0.0 { [x[0], x[1] + gap, x[2]] } else { x })
+            .map(|x| if dimension == 2 { [x[0], x[1], 0.0] } else { x })
+            .collect();
+        if let Some(far) = flyer {
+            points.push([-far, far, 0.0]);
+        }
+        all_agree(&scene, &cloud(points), &[1, 2, 25])?;
+    }
+}
