@@ -198,6 +198,41 @@ fn floating_point_and_the_standard_scheme_do_not_return_and_exit_with_1() {
 }
 
 #[test]
+fn numbers_that_end_exit_with_4_and_leave_the_last_good_state() {
+    let place = Place::new();
+    let mut arguments = vec!["run", "dam-break", "--json", "--quiet", "--out", "a"];
+    for set in [
+        "particle_spacing=0.2",
+        "model=standard",
+        "cfl=0.4",
+        "turnaround=2",
+    ] {
+        arguments.extend(["--set", set]);
+    }
+    let ended = place
+        .call(&arguments)
+        .refused(4, &["the run ended at t = 1.324000 s"]);
+    let lines: Vec<&str> = ended.stderr.lines().collect();
+    assert_eq!(lines.len(), 2, "{ended:#?}");
+    assert!(lines[0].ends_with("particle 13 in step 662: its density is not positive"));
+    assert_eq!(
+        lines[1],
+        "the last good state is in a/snapshots/latest.snapshot"
+    );
+    assert_eq!(place.manifest("a")["steps"], 661);
+    assert_eq!(place.manifest("a")["status"], "failed");
+    let digest = place
+        .call(&["digest", "a/snapshots/latest.snapshot"])
+        .with_code(0);
+    assert_eq!(
+        place.manifest("a")["digest"]["final"],
+        digest.stdout.trim_end()
+    );
+    let words = ["the run in a has failed", "nothing to resume"];
+    place.call(&["resume", "a"]).refused(2, &words);
+}
+
+#[test]
 fn without_json_the_end_is_a_table_and_a_sentence() {
     let place = Place::new();
     let call = |out, more: &[&str]| {
