@@ -73,9 +73,9 @@ impl Strips {
     /// Copies the positions into their slots; false where the layout has become too old.
     fn follow<A: Arithmetic, const D: usize>(&mut self, position: &[[A::Length; D]]) -> bool {
         let mut largest = 0.0f64;
-        for d in 0..D {
-            let slots = self.order.iter().zip(&mut self.x[d]).zip(&self.made_at[d]);
-            for ((&place, x), made_at) in slots {
+        let columns = self.x.iter_mut().zip(&self.made_at).take(D);
+        for (d, (x, made_at)) in columns.enumerate() {
+            for ((&place, x), made_at) in self.order.iter().zip(x).zip(made_at) {
                 if place != NOBODY {
                     *x = position[place as usize][d].quanta();
                     largest = largest.max((*x - made_at).abs());
@@ -143,23 +143,11 @@ impl Strips {
         self.skin = SKIN * reach;
         self.height = reach + self.skin;
         let mut extent = [0.0f64; 3];
-        for d in 0..D {
-            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-            let (mut sum, mut squares) = (0.0, 0.0);
-            for x in position {
-                let x: f64 = x[d].quanta();
-                low = low.min(x);
-                high = high.max(x);
-                sum += x;
-                squares += x * x;
-            }
-            // A few particles that have flown far must not blow up the box.
-            let mean = sum / n;
-            let spread = 6.0 * (squares / n - mean * mean).max(0.0).sqrt() + self.height;
-            low = low.max(mean - spread);
-            high = high.min(mean + spread);
-            self.origin[d] = low;
-            extent[d] = (high - low).max(0.0);
+        let axes = extent.iter_mut().zip(&mut self.origin).take(D);
+        for (d, (extent, origin)) in axes.enumerate() {
+            let (low, high) = interval(position.iter().map(|x| x[d].quanta()), self.height);
+            *origin = low;
+            *extent = (high - low).max(0.0);
         }
         // At most as many strips as particles, at most four cells for each.
         let most = n;
@@ -267,4 +255,22 @@ impl Strips {
         }
         most
     }
+}
+
+/// Where most of the values are: from the least to the greatest, but no farther than six standard
+/// deviations and `margin` from the mean. A few particles that have flown far must not blow up the
+/// box.
+fn interval(values: impl Iterator<Item = f64>, margin: f64) -> (f64, f64) {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut n, mut sum, mut squares) = (0.0f64, 0.0, 0.0);
+    for x in values {
+        low = low.min(x);
+        high = high.max(x);
+        n += 1.0;
+        sum += x;
+        squares += x * x;
+    }
+    let mean = sum / n.max(1.0);
+    let spread = 6.0 * (squares / n.max(1.0) - mean * mean).max(0.0).sqrt() + margin;
+    (low.max(mean - spread), high.min(mean + spread))
 }
