@@ -17,6 +17,9 @@ pub enum FaultKind {
     /// The density is zero or negative.
     #[error("its density is not positive")]
     DensityNotPositive,
+    /// The density constants were never computed: the model's `initialise` comes first.
+    #[error("the run was not initialised")]
+    NotInitialised,
     /// The memory lent for a run is of the wrong length; found when the run is set up.
     #[error("the slice lent for {0} has the wrong length")]
     Capacity(&'static str),

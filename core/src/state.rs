@@ -182,11 +182,12 @@ pub struct Scratch<'a, A: Arithmetic, const D: usize> {
     pub wall_pressure: &'a mut [A::Real],
 }
 
-/// What the scratch holds at the moment; a fresh one holds nothing.
+/// What the scratch holds at the moment; a fresh one holds nothing and must be initialised.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Progress {
     /// Whole steps taken over all legs.
     pub step: u64,
+    pub(crate) initialised: bool,
     pub(crate) walls_sorted: bool,
     pub(crate) density_current: bool,
     /// The kick coefficient, as bits, whose impulses are in the scratch.
@@ -199,12 +200,17 @@ impl Progress {
     pub fn at_step(step: u64) -> Self {
         Self {
             step,
+            initialised: true,
             ..Self::default()
         }
     }
     /// Positions (or densities) were changed from outside: everything is computed anew.
     pub fn invalidate(&mut self) {
-        *self = Self::at_step(self.step);
+        *self = Self {
+            step: self.step,
+            initialised: self.initialised,
+            ..Self::default()
+        };
     }
 }
 

@@ -70,7 +70,10 @@ impl From<RunError> for Failure {
             RunError::Output(error) => {
                 let code = match error {
                     OutputError::NotARun { .. } | OutputError::Snapshot(_) => USAGE,
-                    OutputError::Exists(_) | OutputError::Io { .. } => OUTPUT,
+                    OutputError::Exists(_)
+                    | OutputError::NotReplaced { .. }
+                    | OutputError::InUse(_)
+                    | OutputError::Io { .. } => OUTPUT,
                 };
                 Self::new(code, format!("error: {error}"))
             }

@@ -3,6 +3,7 @@
 use crate::exit::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use loschmidt_runner::run::Progress;
+use loschmidt_runner::{Run, setup};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
@@ -37,7 +38,8 @@ impl Display {
         }
         let bar =
             ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(10));
-        let template = "{prefix:>4} {wide_bar} {percent:>3} %  step {pos}/{len}  {eta} left\n{msg}";
+        let template =
+            "{prefix:>4} {wide_bar} {percent:>3} %  step {pos}/{len}  {eta} left\n{wide_msg}";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style.progress_chars("█▉▊▋▌▍▎▏ "));
         }
@@ -80,10 +82,44 @@ impl Display {
         }
     }
 
-    /// Takes the bar away.
-    pub fn finish(self) {
-        if let Self::Bar(bar) = self {
-            bar.finish_and_clear();
+    /// Says what is about to be run, and where its files go.
+    pub fn announce(&self, run: &Run) {
+        if matches!(self, Self::Quiet) {
+            return;
+        }
+        let player = run.player();
+        let path = run
+            .path()
+            .map(|path| format!(", written to {}", path.display()));
+        tell(&format!(
+            "{}: {} particles, {} steps, {} on {} thread(s){}",
+            player.scene().name,
+            player.home().id.len(),
+            run.plan().total(),
+            player.options().executor.name(),
+            player.threads(),
+            path.unwrap_or_default()
+        ));
+        let dt = player.scene().time_step();
+        for (name, limit) in setup::fixed_limits(player.scene()) {
+            if dt > limit {
+                tell(&format!(
+                    "warning: the time step {dt:.2e} s exceeds the {name} limit {limit:.2e} s; see `loschmidt check`"
+                ));
+            }
+        }
+    }
+
+    /// Takes the bar away; that of a run that did not end well stays, to show how far it came. (It
+    /// could not be taken away cleanly: the terminal has echoed the Ctrl-C into it.)
+    pub fn finish(self, well: bool) {
+        match self {
+            Self::Bar(bar) if well => bar.finish_and_clear(),
+            Self::Bar(bar) => {
+                bar.abandon();
+                tell("");
+            }
+            Self::Quiet | Self::Lines { .. } => {}
         }
     }
 }

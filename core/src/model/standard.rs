@@ -14,7 +14,7 @@
 
 use super::{Forces, Model, Reversibility};
 use crate::executor::{Executor, Ids, Targets};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 use crate::number::{Arithmetic, Quantity};
 use crate::state::{DensityRole, System};
 
@@ -97,6 +97,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
     fn initialise<E: Executor>(&self, system: &mut System<'_, A, D>, _: &E) -> Result<(), Fault> {
         self.forces.check_capacity(system)?;
         system.progress.invalidate();
+        system.progress.initialised = true;
         let rho = self.forces.reference_density();
         system.state.density.fill(rho);
         let of_walls = if self.forces.has_dummies(system) {
@@ -130,6 +131,9 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
 
     fn step<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
         let step = system.progress.step + 1;
+        if !system.progress.initialised {
+            return Err(Fault::new(FaultKind::NotInitialised, 0).at_step(step));
+        }
         let mut stages = || {
             self.update_density(system, exec)?;
             self.forces.kick(system, exec, 0.5)?;

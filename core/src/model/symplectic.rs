@@ -8,7 +8,7 @@
 
 use super::{Forces, Model, Reversibility};
 use crate::executor::Executor;
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 use crate::integrator::Stage;
 use crate::number::{Arithmetic, Quantity};
 use crate::state::{DensityRole, System};
@@ -79,6 +79,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         let forces = &self.forces;
         self.forces.check_capacity(system)?;
         system.progress.invalidate();
+        system.progress.initialised = true;
         forces.sort(system, exec);
         let sum = core::mem::take(&mut system.scratch.density);
         let result = forces.sum_density(system, exec, sum);
@@ -128,6 +129,9 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
 
     fn step<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
         let step = system.progress.step + 1;
+        if !system.progress.initialised {
+            return Err(Fault::new(FaultKind::NotInitialised, 0).at_step(step));
+        }
         let mut stages = || {
             for stage in self.forces.parameters().integrator.stages {
                 match *stage {

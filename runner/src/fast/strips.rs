@@ -125,13 +125,14 @@ impl Strips {
             self.slot[place] = *slot;
             *slot += 1;
         }
-        for d in 0..D {
-            self.x[d].clear();
-            self.x[d].extend(self.order.iter().map(|&place| match place {
+        let columns = self.x.iter_mut().zip(&mut self.made_at).take(D);
+        for (d, (x, made_at)) in columns.enumerate() {
+            x.clear();
+            x.extend(self.order.iter().map(|&place| match place {
                 NOBODY => FAR,
                 place => position[place as usize][d].quanta(),
             }));
-            self.made_at[d].clone_from(&self.x[d]);
+            made_at.clone_from(x);
         }
         self.most_candidates = self.count_candidates::<D>();
     }

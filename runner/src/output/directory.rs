@@ -19,6 +19,17 @@ pub enum OutputError {
     /// The directory is there already.
     #[error("{} exists already; choose another --out, or replace the run in it with --force", .0.display())]
     Exists(PathBuf),
+    /// `--force` replaces runs, and this is something else.
+    #[error("{} {what}, not a run that --force could replace; choose another --out", path.display())]
+    NotReplaced {
+        /// What is there.
+        path: PathBuf,
+        /// What it is.
+        what: &'static str,
+    },
+    /// Another process is at work in it.
+    #[error("{} is in use by a run at this moment", .0.display())]
+    InUse(PathBuf),
     /// The file system said no.
     #[error("cannot {what} {}: {source}", path.display())]
     Io {
@@ -45,6 +56,8 @@ pub enum OutputError {
 /// An open run directory.
 pub struct RunDirectory {
     path: PathBuf,
+    /// Held locked for as long as the directory is written to.
+    _lock: Option<File>,
     series: SeriesWriter<File>,
     frames: Collection,
     csv: CsvWriter,
@@ -56,6 +69,7 @@ const SCENE: &str = "scene.toml";
 const SERIES: &str = "series.csv";
 const FRAMES: &str = "frames";
 const SNAPSHOTS: &str = "snapshots";
+const LOCK: &str = ".lock";
 
 /// The first of `runs/<scene>-1`, `-2`, … that does not exist.
 #[must_use]
@@ -64,6 +78,41 @@ pub fn free_directory(scene: &str) -> PathBuf {
         .map(|n| Path::new("runs").join(format!("{scene}-{n}")))
         .find(|path| fs::symlink_metadata(path).is_err())
         .unwrap_or_else(|| Path::new("runs").join(scene))
+}
+
+/// `--force` replaces a run, or fills a directory that holds nothing of a run's names; anything else
+/// may be somebody's work.
+fn refuse_to_replace(path: &Path, force: bool) -> Result<(), OutputError> {
+    let refuse = |what| {
+        Err(OutputError::NotReplaced {
+            path: path.to_owned(),
+            what,
+        })
+    };
+    if !path.is_dir() {
+        return refuse("is a file");
+    }
+    if !force {
+        return Err(OutputError::Exists(path.to_owned()));
+    }
+    let ours = [MANIFEST, SCENE, SERIES, COLLECTION];
+    let is_empty = !ours.iter().any(|name| path.join(name).exists());
+    if is_empty || RunDirectory::read_manifest(path).is_ok() {
+        Ok(())
+    } else {
+        refuse("holds files of other origin")
+    }
+}
+
+/// Takes the directory for this process; `None` where the file system knows no locks.
+fn lock(path: &Path) -> Result<Option<File>, OutputError> {
+    let file = path.join(LOCK);
+    let lock = File::create(&file).map_err(io("create", &file))?;
+    match lock.try_lock() {
+        Ok(()) => Ok(Some(lock)),
+        Err(std::fs::TryLockError::WouldBlock) => Err(OutputError::InUse(path.to_owned())),
+        Err(std::fs::TryLockError::Error(_)) => Ok(None),
+    }
 }
 
 fn io(what: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> OutputError {
@@ -87,15 +136,18 @@ impl RunDirectory {
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(io("create", parent))?;
         }
+        let mut replacing = false;
         match fs::create_dir(path) {
             Ok(()) => {}
             Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {
-                if !force || !path.is_dir() {
-                    return Err(OutputError::Exists(path.to_owned()));
-                }
-                remove_run(path)?;
+                refuse_to_replace(path, force)?;
+                replacing = true;
             }
             Err(error) => return Err(io("create", path)(error)),
+        }
+        let lock = lock(path)?;
+        if replacing {
+            remove_run(path)?;
         }
         for sub in [FRAMES, SNAPSHOTS] {
             let sub = path.join(sub);
@@ -105,6 +157,7 @@ impl RunDirectory {
         let file = File::create(&series).map_err(io("create", &series))?;
         Ok(Self {
             path: path.to_owned(),
+            _lock: lock,
             series: SeriesWriter::new(file),
             frames: Collection::new(),
             csv: CsvWriter::new(),
@@ -132,6 +185,7 @@ impl RunDirectory {
     /// # Errors
     /// The file system's.
     pub fn reopen(path: &Path, rows: &[Row]) -> Result<Self, OutputError> {
+        let lock = lock(path)?;
         let series = path.join(SERIES);
         // The rewritten file replaces the old one whole, so that an interruption here loses nothing.
         let beside = series.with_extension("part");
@@ -143,6 +197,7 @@ impl RunDirectory {
         fs::rename(&beside, &series).map_err(io("replace", &series))?;
         Ok(Self {
             path: path.to_owned(),
+            _lock: lock,
             series: writer,
             frames: Collection::new(),
             csv: CsvWriter::new(),

@@ -79,6 +79,7 @@ impl Run {
         if let Some(directory) = &run.directory {
             directory.write_scene(&run.player.scene().to_toml())?;
         }
+        run.write_manifest(Status::Running, None, None)?;
         run.record(0)?;
         Ok(run)
     }

@@ -67,8 +67,8 @@ pub enum SceneError {
         /// Particle spacing, m.
         particle_spacing: f64,
     },
-    /// Two particles start on one point.
-    #[error("error: two particles of scene `{scene}` lie on one point, ({})\n  region {}: {}\n  region {}: {}\nhelp: regions may touch but not overlap: subtract one shape from the other with `difference`", coordinates(.point), .first.0, .first.1, .second.0, .second.1)]
+    /// Two particles start on one point, or much nearer than a spacing.
+    #[error("error: two particles of scene `{scene}` lie on or almost on one point, ({})\n  region {}: {}\n  region {}: {}\nhelp: regions may touch but not overlap: subtract one shape from the other with `difference`", coordinates(.point), .first.0, .first.1, .second.0, .second.1)]
     Coincident {
         /// Name of the scene.
         scene: String,
@@ -76,7 +76,7 @@ pub enum SceneError {
         first: (usize, String),
         /// Number of the second region and its description.
         second: (usize, String),
-        /// The shared point, m; as many coordinates as dimensions.
+        /// The point, m; as many coordinates as dimensions.
         point: Vec<f64>,
     },
     /// More particles than 32-bit indices can hold.

@@ -31,9 +31,10 @@ const MOST_SAMPLES: f64 = (1_u64 << 20) as f64;
 /// a little of its bounds is not searched for hours.
 const MOST_NODES: f64 = (1_u64 << 33) as f64;
 
-/// Particles nearer than this, in spacings, lie on one point: their coordinates differ
-/// only by the rounding of two lattices.
-const COINCIDENCE: f64 = 1e-6;
+/// Particles of two regions nearer than this, in spacings, are a mistake. Lattice nodes lie half a
+/// spacing inside the faces of their region, so that regions which only touch keep their particles
+/// farther apart; particles nearer than this mean regions that overlap.
+const TOO_NEAR: f64 = 0.45;
 
 /// Largest coordinate over spacing at which the nodes of a lattice are told apart to the
 /// tolerance of the faces.
@@ -71,7 +72,7 @@ impl Scene {
     ///
     /// [`SceneError::NoFluid`], [`SceneError::TooManyParticles`],
     /// [`SceneError::TooFar`], [`SceneError::TooSparse`], and [`SceneError::Coincident`] when particles of two
-    /// regions lie on one point.
+    /// regions lie on one point or nearly so.
     pub fn initial_state(&self) -> Result<InitialState, SceneError> {
         let no_fluid = || SceneError::NoFluid {
             scene: self.name.clone(),
@@ -112,7 +113,7 @@ impl Scene {
         if state.fluid.is_empty() {
             return Err(no_fluid());
         }
-        self.refuse_coincidence(&state, &placed)?;
+        self.refuse_overlap(&state, &placed)?;
         Ok(state)
     }
 
@@ -198,7 +199,7 @@ impl Scene {
     /// Compares the particles of every two regions where their bounds overlap.
     ///
     /// Two regions that do not interlock cost nothing beyond their bounds.
-    fn refuse_coincidence(
+    fn refuse_overlap(
         &self,
         state: &InitialState,
         placed: &[(usize, RegionKind, usize)],
@@ -218,7 +219,7 @@ impl Scene {
         let axes = self.dimension.axes();
         for (position, &(first, points)) in groups.iter().enumerate() {
             for &(second, others) in &groups[position + 1..] {
-                if let Some(point) = coincidence(points, others, self.particle_spacing, axes) {
+                if let Some(point) = too_near(points, others, self.particle_spacing, axes) {
                     return Err(SceneError::Coincident {
                         scene: self.name.clone(),
                         first: (first, describe(&self.regions[first], self.dimension)),
@@ -264,50 +265,40 @@ fn estimate(lattice: Lattice, shape: &Shape) -> u64 {
     (0..power).fold(count, |count, _| count.saturating_mul(coarser))
 }
 
-/// A point that two sets share up to rounding.
+/// The first point of `a` that is too near to one of `b`.
 ///
-/// Space is cut into cubes of twice the tolerance; two points nearer than the tolerance
-/// along every axis share a cube in at least one of the 2^D cuts that are shifted by half
-/// a cube along some axes.
-fn coincidence(a: &[Point], b: &[Point], spacing: f64, axes: usize) -> Option<Point> {
-    let common = overlap(grown(bounds(a)?, spacing), grown(bounds(b)?, spacing))?;
-    let inside = |points: &[Point]| -> Vec<Point> {
-        points
-            .iter()
-            .filter(|p| (0..axes).all(|k| common.0[k] <= p[k] && p[k] <= common.1[k]))
-            .copied()
-            .collect()
+/// The points of `b` are sorted into cubes of the distance that is allowed; what is too near to a
+/// point lies in its cube or in one of those around.
+fn too_near(a: &[Point], b: &[Point], spacing: f64, axes: usize) -> Option<Point> {
+    let near = TOO_NEAR * spacing;
+    let common = overlap(grown(bounds(a)?, near), grown(bounds(b)?, near))?;
+    let inside = |p: &&Point| (0..axes).all(|k| common.0[k] <= p[k] && p[k] <= common.1[k]);
+    let cube = |p: &Point| -> [i64; 3] {
+        std::array::from_fn(|k| ((p[k] - common.0[k]) / near).floor() as i64)
     };
-    let (a, b) = (inside(a), inside(b));
-    if a.is_empty() || b.is_empty() {
-        return None;
-    }
-    let cube = 2.0 * COINCIDENCE * spacing;
-    let mut found: Option<Point> = None;
-    for cut in 0..1_u32 << axes {
-        let cell = |point: &Point| -> [i64; 3] {
-            std::array::from_fn(|k| {
-                let shift = if cut >> k & 1 == 1 { 0.5 } else { 0.0 };
-                ((point[k] - common.0[k]) / cube + shift).floor() as i64
+    let mut sorted: Vec<([i64; 3], &Point)> =
+        b.iter().filter(inside).map(|p| (cube(p), p)).collect();
+    sorted.sort_unstable_by_key(|(cube, _)| *cube);
+    let is_near = |p: &Point, q: &Point| {
+        let square: f64 = (0..axes).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum();
+        square < near * near
+    };
+    let mut candidates = a.iter().filter(inside);
+    candidates
+        .find(|p| {
+            let home = cube(p);
+            (0..3_i64.pow(axes as u32)).any(|n| {
+                let offset = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
+                let cell: [i64; 3] =
+                    std::array::from_fn(|k| home[k] + if k < axes { offset[k] } else { 0 });
+                let start = sorted.partition_point(|(cube, _)| *cube < cell);
+                sorted[start..]
+                    .iter()
+                    .take_while(|(cube, _)| *cube == cell)
+                    .any(|(_, q)| is_near(p, q))
             })
-        };
-        let mut cells: Vec<[i64; 3]> = b.iter().map(cell).collect();
-        cells.sort_unstable();
-        // The first in the order of the ids, whichever cut finds it.
-        let hit = a
-            .iter()
-            .find(|point| cells.binary_search(&cell(point)).is_ok());
-        if let Some(point) = hit {
-            let earlier = found.is_none_or(|old| {
-                let place = |p: &Point| a.iter().position(|q| q == p);
-                place(point) < place(&old)
-            });
-            if earlier {
-                found = Some(*point);
-            }
-        }
-    }
-    found
+        })
+        .copied()
 }
 
 fn bounds(points: &[Point]) -> Option<Bounds> {
@@ -320,8 +311,5 @@ fn bounds(points: &[Point]) -> Option<Bounds> {
 }
 
 fn grown((min, max): Bounds, by: f64) -> Bounds {
-    (
-        min.map(|x| x - by * COINCIDENCE),
-        max.map(|x| x + by * COINCIDENCE),
-    )
+    (min.map(|x| x - by), max.map(|x| x + by))
 }

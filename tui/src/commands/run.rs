@@ -5,14 +5,20 @@ use crate::cli::{ResumeArguments, RunArguments, WorkArguments};
 use crate::exit::{Failure, NOT_EXACT};
 use crate::progress::Display;
 use crate::report;
-use loschmidt_runner::output::{Manifest, free_directory};
+use loschmidt_runner::output::{Manifest, OutputError, free_directory};
 use loschmidt_runner::scene;
-use loschmidt_runner::{ExecutorKind, Options, Run};
+use loschmidt_runner::{ExecutorKind, Options, Run, RunError};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+
+/// The signals to stop; a terminal that is closed is one of them where there is such a signal.
+#[cfg(unix)]
+const STOP: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
+#[cfg(not(unix))]
+const STOP: [i32; 2] = [SIGINT, SIGTERM];
 
 /// Runs a scene.
 pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
@@ -23,11 +29,17 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
         arithmetic: arguments.arithmetic.into(),
         ..Options::default()
     })?;
-    let out = match &arguments.out {
-        Some(out) => out.clone(),
-        None => free_directory(&scene.name),
+    let run = loop {
+        let out = match &arguments.out {
+            Some(out) => out.clone(),
+            None => free_directory(&scene.name),
+        };
+        match Run::start(scene.clone(), options, Some((&out, arguments.force))) {
+            // Another run took the name in this moment.
+            Err(RunError::Output(OutputError::Exists(_))) if arguments.out.is_none() => {}
+            result => break result?,
+        }
     };
-    let run = Run::start(scene, options, Some((&out, arguments.force)))?;
     execute(run, &arguments.work, &stop)
 }
 
@@ -61,8 +73,9 @@ fn earlier(manifest: &Manifest) -> Options {
 fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<ExitCode, Failure> {
     let (done, total) = (run.player().steps_taken(), run.plan().total());
     let mut display = Display::new(work.quiet, done, total);
+    display.announce(&run);
     let result = run.execute(|progress| display.show(progress), stop);
-    display.finish();
+    display.finish(result.is_ok());
     let outcome = result?;
     let text = if work.json {
         // Shortest digits that read back to the same number; no NaN or infinity can occur in it.
@@ -85,12 +98,11 @@ fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<Exit
     })
 }
 
-/// A flag that SIGINT and SIGTERM set; the second of them ends the program at once.
+/// A flag that the signals to stop set. Repeated ones change nothing: the run stops after the step
+/// it is at, and its snapshot and last words are not to be lost to an impatient second Ctrl-C.
 fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        let code = i32::from(crate::exit::INTERRUPTED);
-        signal_hook::flag::register_conditional_shutdown(signal, code, Arc::clone(&stop))?;
+    for signal in STOP {
         signal_hook::flag::register(signal, Arc::clone(&stop))?;
     }
     Ok(stop)
