@@ -4,13 +4,20 @@
 //! bits for any order and any partition of the terms, so energies on the way back equal those on
 //! the way out to the last bit, on any number of threads.
 
-use crate::number::power_of_two;
+use crate::number::{Accumulate, Real, power_of_two};
 
 const FRACTION_BITS: i32 = 60;
 
 /// An order-free sum; terms should be of the order of 1 (range ±2^67, resolution 2^-60).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExactSum(i128);
+
+impl<R: Real> Accumulate<R> for ExactSum {
+    #[inline]
+    fn accumulate(self, term: R) -> Option<Self> {
+        Some(self.plus(term.to_f64()))
+    }
+}
 
 impl ExactSum {
     /// The sum with one more term. A term beyond the range saturates; a NaN counts as zero.

@@ -9,11 +9,11 @@ use crate::pairs::{PairPass, Sources, gather};
 
 /// The particles that receive a sum.
 #[derive(Debug)]
-pub struct Targets<'a, A: Arithmetic, T, const D: usize> {
+pub struct Targets<'a, A: Arithmetic, T, const D: usize, const READ: usize> {
     /// Positions.
     pub position: &'a [[A::Length; D]],
     /// What the pass reads of them.
-    pub read: &'a [T],
+    pub read: &'a [[T; READ]],
     /// Ids, to name a particle that fails.
     pub id: Ids<'a>,
     /// True where targets and sources are the same set: a particle is not its own neighbour.
@@ -59,20 +59,20 @@ pub trait Executor {
     ///
     /// # Errors
     /// [`FaultKind::TermRange`] and [`FaultKind::Crowded`], naming the target.
-    fn sum<A, P, const D: usize>(
+    fn sum<A, P, const D: usize, const READ: usize, const TERM: usize>(
         &self,
         pass: &P,
-        to: &Targets<'_, A, P::Read, D>,
-        from: &Sources<'_, A, P::Read, D>,
-        out: &mut [P::Sum],
+        to: &Targets<'_, A, P::Word, D, READ>,
+        from: &Sources<'_, A, P::Word, D, READ>,
+        out: &mut [[P::Sum; TERM]],
     ) -> Result<(), Fault>
     where
         A: Arithmetic,
-        P: PairPass<A, D>,
+        P: PairPass<A, D, READ, TERM>,
     {
         self.for_each(out, |i, sum| {
             let skip = to.same_set.then_some(i);
-            gather(pass, &to.position[i], to.read[i], from, skip, sum)
+            gather(pass, &to.position[i], &to.read[i], from, skip, sum)
                 .map_err(|kind: FaultKind| Fault::new(kind, to.id.get(i)))
         })
     }

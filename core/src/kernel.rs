@@ -12,7 +12,7 @@
 //!
 //! Only `+ - * /` occur, in one written order; no power, no exponential.
 
-use crate::number::Real;
+use crate::number::{Lanes, Real};
 use core::f64::consts::PI;
 
 /// The kernel for a support radius, with the unit of r chosen by the caller.
@@ -44,27 +44,26 @@ impl<R: Real> WendlandC2<R> {
     }
 
     /// W(r), 1/m^D.
-    #[inline]
-    pub fn value(&self, r: R) -> R {
+    #[inline(always)]
+    pub fn value<L: Lanes<R>>(&self, r: L) -> L {
         let (q, t) = self.q_t(r);
         let t2 = t * t;
-        let four = R::from_f64(4.0);
-        let one = R::from_f64(1.0);
-        self.value_factor * ((t2 * t2) * (one + four * q))
+        let four = L::splat(R::from_f64(4.0));
+        let one = L::splat(R::from_f64(1.0));
+        L::splat(self.value_factor) * ((t2 * t2) * (one + four * q))
     }
 
     /// W'(r)/r, 1/m^(D+2), never positive.
-    #[inline]
-    pub fn derivative_over_r(&self, r: R) -> R {
+    #[inline(always)]
+    pub fn derivative_over_r<L: Lanes<R>>(&self, r: L) -> L {
         let (_, t) = self.q_t(r);
-        self.derivative_factor * (t * t * t)
+        L::splat(self.derivative_factor) * (t * t * t)
     }
 
-    #[inline]
-    fn q_t(&self, r: R) -> (R, R) {
-        let zero = R::from_f64(0.0);
-        let q = r * self.inverse_support;
-        let t = R::from_f64(1.0) - q;
-        (q, if t > zero { t } else { zero })
+    #[inline(always)]
+    fn q_t<L: Lanes<R>>(&self, r: L) -> (L, L) {
+        let q = r * L::splat(self.inverse_support);
+        let t = L::splat(R::from_f64(1.0)) - q;
+        (q, t.positive_part())
     }
 }

@@ -107,6 +107,51 @@ impl Real for f64 {
     }
 }
 
+/// Several reals at once, or one: what a pair term is written in.
+///
+/// A term is one expression; for `L = R` it is the plain reference, for an array of reals it is
+/// what an executor evaluates for a row of neighbours. Every lane goes through the operations of the
+/// expression in its order, so it has the bits of the plain one.
+pub trait Lanes<R: Real>:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    /// The same value in all lanes.
+    fn splat(value: R) -> Self;
+    /// Square root, correctly rounded.
+    fn root(self) -> Self;
+    /// x where x > 0, else 0 (also for a NaN).
+    fn positive_part(self) -> Self;
+}
+
+impl<R: Real> Lanes<R> for R {
+    #[inline(always)]
+    fn splat(value: R) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.sqrt()
+    }
+    #[inline(always)]
+    fn positive_part(self) -> Self {
+        let zero = R::from_f64(0.0);
+        if self > zero { self } else { zero }
+    }
+}
+
+/// What integers or other exact numbers a sum is made of.
+pub trait Accumulate<R>: Copy + Send + Sync {
+    /// The sum with one more term, rounded once; `None` where the term is out of range.
+    fn accumulate(self, term: R) -> Option<Self>;
+}
+
+impl<R: Real, Q: Quantity> Accumulate<R> for Q {
+    #[inline]
+    fn accumulate(self, term: R) -> Option<Self> {
+        self.add_rounded(term)
+    }
+}
+
 /// One component of the state: a fixed-point number, or the float it is compared with.
 pub trait Quantity: Copy + Default + Debug + PartialEq + Send + Sync + 'static {
     /// Zero.
@@ -234,7 +279,7 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     /// Type of a density.
     type Density: Quantity;
     /// Type of a pair term before it is rounded.
-    type Real: Real;
+    type Real: Real + Quantity;
     /// `"fixed"` or `"float"`; part of the digest's header.
     const NAME: &'static str;
     /// True where the sums do not depend on their order, and so a step can be undone exactly.
@@ -245,7 +290,7 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
 #[derive(Clone, Copy, Debug)]
 pub struct Fixed<R = f64>(core::marker::PhantomData<R>);
 
-impl<R: Real> Arithmetic for Fixed<R> {
+impl<R: Real + Quantity> Arithmetic for Fixed<R> {
     type Length = Length;
     type Speed = Speed;
     type Density = Density;

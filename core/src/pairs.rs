@@ -10,7 +10,7 @@
 
 use crate::fault::{FaultKind, MAX_NEIGHBOURS};
 use crate::neighbours::{CellsView, Grid};
-use crate::number::{Arithmetic, Quantity, Real};
+use crate::number::{Accumulate, Arithmetic, Lanes, Quantity, Real};
 
 /// How a term changes when the two particles are exchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,26 +22,34 @@ pub enum Parity {
 }
 
 /// One sum over pairs, written once for every executor.
-pub trait PairPass<A: Arithmetic, const D: usize>: Sync {
-    /// What the term needs of each particle besides its position.
-    type Read: Copy + Sync;
-    /// The term before rounding, in quanta of the sum.
-    type Term: Copy;
-    /// The integers that are summed.
-    type Sum: Copy + Send + Sync;
+///
+/// READ is the number of words the term needs of each particle besides its position, TERM the
+/// number of components of the term.
+pub trait PairPass<A: Arithmetic, const D: usize, const READ: usize, const TERM: usize>:
+    Sync
+{
+    /// What is read of each particle.
+    type Word: Quantity;
+    /// The exact numbers that are summed.
+    type Sum: Accumulate<A::Real>;
     /// Behaviour under exchange of the pair.
     const PARITY: Parity;
     /// Squared distance, in length quanta, from which on the term is zero.
     fn reach_squared(&self) -> A::Real;
-    /// The term for x_ij = x_i - x_j (length quanta) and r² = |x_ij|².
-    fn term(&self, x_ij: &[A::Real; D], r2: A::Real, i: Self::Read, j: Self::Read) -> Self::Term;
-    /// Rounds the term into the sum; `None` where a component is out of range.
-    fn add(sum: &Self::Sum, term: Self::Term) -> Option<Self::Sum>;
+    /// The term, in quanta of the sum and not yet rounded, for x_ij = x_i - x_j (length quanta),
+    /// r² = |x_ij|² and the words of i and j in quanta.
+    fn term<L: Lanes<A::Real>>(
+        &self,
+        x_ij: &[L; D],
+        r2: L,
+        i: &[L; READ],
+        j: &[L; READ],
+    ) -> [L; TERM];
 }
 
 /// The particles a sum runs over: positions, what the pass reads of them, and their cells.
 #[derive(Debug)]
-pub struct Sources<'a, A: Arithmetic, T, const D: usize> {
+pub struct Sources<'a, A: Arithmetic, T, const D: usize, const READ: usize> {
     /// Cells of this set.
     pub grid: &'a Grid<D>,
     /// The set sorted into the cells.
@@ -49,7 +57,7 @@ pub struct Sources<'a, A: Arithmetic, T, const D: usize> {
     /// Positions.
     pub position: &'a [[A::Length; D]],
     /// What the pass reads.
-    pub read: &'a [T],
+    pub read: &'a [[T; READ]],
 }
 
 /// x_i - x_j in length quanta, and its square.
@@ -66,24 +74,49 @@ pub fn separation<A: Arithmetic, const D: usize>(
     (x_ij, r2)
 }
 
+/// Words as reals, in quanta.
+#[inline]
+pub fn read<R: Real, Q: Quantity, const READ: usize>(words: &[Q; READ]) -> [R; READ] {
+    words.map(Quantity::quanta)
+}
+
+/// Adds a term to a sum, each component rounded by itself; false where one is out of range.
+#[inline]
+pub fn accumulate<S: Accumulate<R>, R: Copy, const TERM: usize>(
+    sum: &mut [S; TERM],
+    term: [R; TERM],
+) -> bool {
+    for (sum, term) in sum.iter_mut().zip(term) {
+        match sum.accumulate(term) {
+            Some(new) => *sum = new,
+            None => return false,
+        }
+    }
+    true
+}
+
 /// Adds to `sum` the terms of one particle at `x_i` with all `from` but index `skip`.
 ///
 /// The plain traversal: every candidate of the 3^D cells, one after another. It is the reference
 /// that faster ones must equal.
-pub fn gather<A, P, const D: usize>(
+///
+/// # Errors
+/// [`FaultKind::TermRange`] and [`FaultKind::Crowded`]; the sum is then of no use.
+pub fn gather<A, P, const D: usize, const READ: usize, const TERM: usize>(
     pass: &P,
     x_i: &[A::Length; D],
-    read_i: P::Read,
-    from: &Sources<'_, A, P::Read, D>,
+    read_i: &[P::Word; READ],
+    from: &Sources<'_, A, P::Word, D, READ>,
     skip: Option<usize>,
-    sum: &mut P::Sum,
+    sum: &mut [P::Sum; TERM],
 ) -> Result<(), FaultKind>
 where
     A: Arithmetic,
-    P: PairPass<A, D>,
+    P: PairPass<A, D, READ, TERM>,
 {
     let reach_squared = pass.reach_squared();
     let skip = skip.map_or(u32::MAX, |i| i as u32);
+    let read_i = read(read_i);
     let mut neighbours = 0u32;
     let mut result = Ok(());
     from.cells.around(from.grid, x_i, |run| {
@@ -91,10 +124,9 @@ where
             let (x_ij, r2) = separation::<A, D>(x_i, &from.position[j as usize]);
             if r2 < reach_squared && j != skip {
                 neighbours += 1;
-                let term = pass.term(&x_ij, r2, read_i, from.read[j as usize]);
-                match P::add(sum, term) {
-                    Some(new) => *sum = new,
-                    None => result = Err(FaultKind::TermRange),
+                let read_j = read(&from.read[j as usize]);
+                if !accumulate(sum, pass.term(&x_ij, r2, &read_i, &read_j)) {
+                    result = Err(FaultKind::TermRange);
                 }
             }
         }
@@ -103,23 +135,4 @@ where
         return Err(FaultKind::Crowded);
     }
     result
-}
-
-/// Σ of one rounded scalar.
-#[inline]
-pub(crate) fn add_scalar<Q: Quantity, R: Real>(sum: &Q, term: R) -> Option<Q> {
-    sum.add_rounded(term)
-}
-
-/// Σ of a vector, each component rounded by itself.
-#[inline]
-pub(crate) fn add_vector<Q: Quantity, R: Real, const D: usize>(
-    sum: &[Q; D],
-    term: [R; D],
-) -> Option<[Q; D]> {
-    let mut new = *sum;
-    for d in 0..D {
-        new[d] = sum[d].add_rounded(term[d])?;
-    }
-    Some(new)
 }

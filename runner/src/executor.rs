@@ -7,7 +7,7 @@
 
 use loschmidt_core::executor::Targets;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
-use loschmidt_core::pairs::{PairPass, Sources, separation};
+use loschmidt_core::pairs::{PairPass, Sources, accumulate, read, separation};
 use loschmidt_core::{Arithmetic, Executor, Fault, FaultKind, Serial};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
@@ -48,20 +48,20 @@ impl Executor for Rayon {
         "rayon"
     }
 
-    fn sum<A, P, const D: usize>(
+    fn sum<A, P, const D: usize, const READ: usize, const TERM: usize>(
         &self,
         pass: &P,
-        to: &Targets<'_, A, P::Read, D>,
-        from: &Sources<'_, A, P::Read, D>,
-        out: &mut [P::Sum],
+        to: &Targets<'_, A, P::Word, D, READ>,
+        from: &Sources<'_, A, P::Word, D, READ>,
+        out: &mut [[P::Sum; TERM]],
     ) -> Result<(), Fault>
     where
         A: Arithmetic,
-        P: PairPass<A, D>,
+        P: PairPass<A, D, READ, TERM>,
     {
         self.for_each(out, |i, sum| {
             let skip = to.same_set.then_some(i);
-            gather_listed(pass, &to.position[i], to.read[i], from, skip, sum)
+            gather_listed(pass, &to.position[i], &to.read[i], from, skip, sum)
                 .map_err(|kind| Fault::new(kind, to.id.get(i)))
         })
     }
@@ -84,18 +84,19 @@ impl Executor for Rayon {
 }
 
 /// The core's `gather` with the branches taken out of the search.
-fn gather_listed<A, P, const D: usize>(
+fn gather_listed<A, P, const D: usize, const READ: usize, const TERM: usize>(
     pass: &P,
     x_i: &[A::Length; D],
-    read_i: P::Read,
-    from: &Sources<'_, A, P::Read, D>,
+    read_i: &[P::Word; READ],
+    from: &Sources<'_, A, P::Word, D, READ>,
     skip: Option<usize>,
-    sum: &mut P::Sum,
+    sum: &mut [P::Sum; TERM],
 ) -> Result<(), FaultKind>
 where
     A: Arithmetic,
-    P: PairPass<A, D>,
+    P: PairPass<A, D, READ, TERM>,
 {
+    let read_i = read(read_i);
     let reach_squared = pass.reach_squared();
     let skip = skip.map_or(u32::MAX, |i| i as u32);
     let mut list = [0u32; LIST];
@@ -106,9 +107,9 @@ where
         neighbours += list.len();
         for &j in list {
             let (x_ij, r2) = separation::<A, D>(x_i, &from.position[j as usize]);
-            match P::add(sum, pass.term(&x_ij, r2, read_i, from.read[j as usize])) {
-                Some(new) => *sum = new,
-                None => result = Err(FaultKind::TermRange),
+            let read_j = read(&from.read[j as usize]);
+            if !accumulate(sum, pass.term(&x_ij, r2, &read_i, &read_j)) {
+                result = Err(FaultKind::TermRange);
             }
         }
     };

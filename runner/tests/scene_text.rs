@@ -1,8 +1,8 @@
 //! What a scene's text, its overrides and its print mean.
 
 use loschmidt_runner::scene::{
-    CentralGravity, Dimension, Integrator, LatticeKind, Model, Scene, SceneError, Shape, Source,
-    StepRule, Velocity, load,
+    CentralGravity, DensityCorrection, Dimension, Integrator, LatticeKind, Model, Scene,
+    SceneError, Shape, Source, StepRule, Velocity, load,
 };
 use proptest::prelude::*;
 
@@ -54,7 +54,7 @@ fn overrides_reach_every_key() {
             "region.0.shape.circle.radius = 0.25",
             "region[0].shape.circle.centre[1]=3",
             "model=standard",
-            "integrator = \"pefrl\"",
+            "density_correction = \"none\"",
             "gravity.central={ centre = [0, 0], strength = 2 }",
             "name=other",
             "turnaround=",
@@ -65,7 +65,7 @@ fn overrides_reach_every_key() {
     assert_eq!(scene.fluid.sound_speed, 60.0);
     assert_eq!(scene.gravity.uniform, [0.0, -1.6, 0.0]);
     assert_eq!(scene.model, Model::Standard);
-    assert_eq!(scene.integrator, Integrator::Pefrl);
+    assert_eq!(scene.density_correction, DensityCorrection::None);
     assert_eq!(scene.name, "other");
     let centre = [0.0, 3.0, 0.0];
     assert_eq!(

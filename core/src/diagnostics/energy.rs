@@ -8,7 +8,7 @@
 use crate::exact::ExactSum;
 use crate::executor::Ids;
 use crate::fault::{Fault, FaultKind};
-use crate::model::{Forces, UNITS};
+use crate::model::{Forces, nothing};
 use crate::number::{Arithmetic, Quantity, Real};
 use crate::pairs::{gather, separation};
 use crate::state::System;
@@ -61,13 +61,13 @@ impl Energies {
             wall += internal(system.scratch.wall_density, ids)?;
         }
         if let Some((energy, pass)) = forces.wall_energy_pass() {
-            let walls = forces.walls(system, UNITS);
-            let mut sum = ExactSum::default();
+            let walls = forces.walls(system, nothing());
+            let mut sum = [ExactSum::default()];
             for (x, id) in system.state.position.iter().zip(&*system.state.id) {
-                gather(&pass, x, (), &walls, None, &mut sum)
+                gather(&pass, x, &[], &walls, None, &mut sum)
                     .map_err(|kind| Fault::new(kind, *id))?;
             }
-            wall += p.mass * energy * sum.value();
+            wall += p.mass * energy * sum[0].value();
         }
         Ok(Self {
             kinetic: kinetic(system) * 0.5 * p.mass * square(p.scale.speed_quantum()),

@@ -12,8 +12,10 @@ use crate::number::{Arithmetic, Quantity, Real};
 use crate::pairs::Sources;
 use crate::state::System;
 
-/// A slice of units as long as anything: what a pass reads that needs no more than positions.
-pub(crate) const UNITS: &[()] = &[(); u32::MAX as usize];
+/// As many empty arrays as anyone needs: what a pass reads that needs no more than positions.
+pub(crate) fn nothing<R>() -> &'static [[R; 0]] {
+    const { &[const { [] }; u32::MAX as usize] }
+}
 
 /// Forces of weakly compressible SPH in D dimensions, ready to be evaluated.
 #[derive(Clone, Debug)]
@@ -198,11 +200,11 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
     }
 
     /// The fluid as sources; the caller has sorted it.
-    pub(super) fn fluid<'s, T>(
+    pub(super) fn fluid<'s, T, const READ: usize>(
         &'s self,
         system: &'s System<'_, A, D>,
-        read: &'s [T],
-    ) -> Sources<'s, A, T, D> {
+        read: &'s [[T; READ]],
+    ) -> Sources<'s, A, T, D, READ> {
         Sources {
             grid: &self.grid,
             cells: system.scratch.cells.view(),
@@ -212,11 +214,11 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
     }
 
     /// The walls as sources.
-    pub(crate) fn walls<'s, T>(
+    pub(crate) fn walls<'s, T, const READ: usize>(
         &'s self,
         system: &'s System<'_, A, D>,
-        read: &'s [T],
-    ) -> Sources<'s, A, T, D> {
+        read: &'s [[T; READ]],
+    ) -> Sources<'s, A, T, D, READ> {
         Sources {
             grid: &self.wall_grid,
             cells: system.scratch.wall_cells.view(),
@@ -236,14 +238,24 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         let pass = self.density_pass();
         let mut to = Targets {
             position: &*system.state.position,
-            read: UNITS,
+            read: nothing(),
             id: Ids::Listed(system.state.id),
             same_set: true,
         };
-        exec.sum(&pass, &to, &self.fluid(system, UNITS), out)?;
+        exec.sum(
+            &pass,
+            &to,
+            &self.fluid(system, nothing()),
+            out.as_chunks_mut().0,
+        )?;
         if self.has_dummies(system) {
             to.same_set = false;
-            exec.sum(&pass, &to, &self.walls(system, UNITS), out)?;
+            exec.sum(
+                &pass,
+                &to,
+                &self.walls(system, nothing()),
+                out.as_chunks_mut().0,
+            )?;
         }
         Ok(())
     }
@@ -257,11 +269,16 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
     ) -> Result<(), Fault> {
         let to = Targets {
             position: &*system.walls.position,
-            read: UNITS,
+            read: nothing(),
             id: Ids::From(system.state.len() as u64),
             same_set: false,
         };
-        exec.sum(&self.density_pass(), &to, &self.fluid(system, UNITS), out)
+        exec.sum(
+            &self.density_pass(),
+            &to,
+            &self.fluid(system, nothing()),
+            out.as_chunks_mut().0,
+        )
     }
 
     /// Σ m W over the walls themselves, into `out`, for every wall particle.
@@ -274,11 +291,16 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         out.fill(self.own_density);
         let to = Targets {
             position: &*system.walls.position,
-            read: UNITS,
+            read: nothing(),
             id: Ids::From(system.state.len() as u64),
             same_set: true,
         };
-        exec.sum(&self.density_pass(), &to, &self.walls(system, UNITS), out)
+        exec.sum(
+            &self.density_pass(),
+            &to,
+            &self.walls(system, nothing()),
+            out.as_chunks_mut().0,
+        )
     }
 
     pub(crate) fn has_dummies(&self, system: &System<'_, A, D>) -> bool {

@@ -5,7 +5,7 @@
 //!
 //! dt is the time step, c the entry of the integrator table.
 
-use super::forces::{Forces, UNITS};
+use super::forces::{Forces, nothing};
 use crate::executor::{Executor, Ids, Targets};
 use crate::fault::{Fault, FaultKind};
 use crate::number::{Arithmetic, Quantity, Real};
@@ -61,7 +61,7 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
                 .ok_or_else(|| Fault::new(FaultKind::TermRange, id[i]))?;
             Ok(())
         })?;
-        let pressure = &*system.scratch.pressure;
+        let pressure = system.scratch.pressure.as_chunks().0;
         let mut to = Targets {
             position,
             read: pressure,
@@ -72,17 +72,17 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         exec.sum(&pass, &to, &self.fluid(system, pressure), impulse)?;
         if self.has_dummies(system) {
             to.same_set = false;
-            let walls = self.walls(system, &*system.scratch.wall_pressure);
+            let walls = self.walls(system, system.scratch.wall_pressure.as_chunks().0);
             exec.sum(&pass, &to, &walls, impulse)?;
         }
         if let Some(pass) = self.wall_pass(duration) {
             let to = Targets {
                 position,
-                read: UNITS,
+                read: nothing(),
                 id: Ids::Listed(id),
                 same_set: false,
             };
-            exec.sum(&pass, &to, &self.walls(system, UNITS), impulse)?;
+            exec.sum(&pass, &to, &self.walls(system, nothing()), impulse)?;
         }
         Ok(())
     }

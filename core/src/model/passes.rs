@@ -14,8 +14,8 @@
 
 use crate::exact::ExactSum;
 use crate::kernel::WendlandC2;
-use crate::number::{Arithmetic, Quantity, Real};
-use crate::pairs::{PairPass, Parity, add_scalar, add_vector};
+use crate::number::{Arithmetic, Lanes, Real};
+use crate::pairs::{PairPass, Parity};
 
 /// Σ_j m W(r_ij), without the particle itself.
 #[derive(Clone, Copy, Debug)]
@@ -26,53 +26,43 @@ pub struct DensityPass<R> {
     pub(super) mass: R,
 }
 
-impl<A: Arithmetic, const D: usize> PairPass<A, D> for DensityPass<A::Real> {
-    type Read = ();
-    type Term = A::Real;
+impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, 1> for DensityPass<A::Real> {
+    type Word = A::Real;
     type Sum = A::Density;
     const PARITY: Parity = Parity::Symmetric;
-    #[inline]
+    #[inline(always)]
     fn reach_squared(&self) -> A::Real {
         self.reach_squared
     }
-    #[inline]
-    fn term(&self, _: &[A::Real; D], r2: A::Real, (): (), (): ()) -> A::Real {
-        self.kernel.value(r2.sqrt()) * self.mass
-    }
-    #[inline]
-    fn add(sum: &A::Density, term: A::Real) -> Option<A::Density> {
-        add_scalar(sum, term)
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
+        [self.kernel.value(r2.root()) * L::splat(self.mass)]
     }
 }
 
-/// The pressure impulse. `Read` is -κ m p/ρ² in units that make the result speed quanta.
+/// The pressure impulse. The word is -κ m p/ρ² in units that make the result speed quanta.
 #[derive(Clone, Copy, Debug)]
 pub struct PressurePass<R> {
     pub(super) kernel: WendlandC2<R>,
     pub(super) reach_squared: R,
 }
 
-impl<A: Arithmetic, const D: usize> PairPass<A, D> for PressurePass<A::Real> {
-    type Read = A::Real;
-    type Term = [A::Real; D];
-    type Sum = [A::Speed; D];
+impl<A: Arithmetic, const D: usize> PairPass<A, D, 1, D> for PressurePass<A::Real> {
+    type Word = A::Real;
+    type Sum = A::Speed;
     const PARITY: Parity = Parity::Antisymmetric;
-    #[inline]
+    #[inline(always)]
     fn reach_squared(&self) -> A::Real {
         self.reach_squared
     }
-    #[inline]
-    fn term(&self, x_ij: &[A::Real; D], r2: A::Real, p_i: A::Real, p_j: A::Real) -> Self::Term {
-        let factor = (p_i + p_j) * self.kernel.derivative_over_r(r2.sqrt());
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, i: &[L; 1], j: &[L; 1]) -> [L; D] {
+        let factor = (i[0] + j[0]) * self.kernel.derivative_over_r(r2.root());
         x_ij.map(|x| factor * x)
-    }
-    #[inline]
-    fn add(sum: &Self::Sum, term: Self::Term) -> Option<Self::Sum> {
-        add_vector(sum, term)
     }
 }
 
-/// The change of density by the relative motion; `Read` is the velocity.
+/// The change of density by the relative motion; the words are the velocity.
 #[derive(Clone, Copy, Debug)]
 pub struct ContinuityPass<R> {
     pub(super) kernel: WendlandC2<R>,
@@ -81,26 +71,22 @@ pub struct ContinuityPass<R> {
     pub(super) factor: R,
 }
 
-impl<A: Arithmetic, const D: usize> PairPass<A, D> for ContinuityPass<A::Real> {
-    type Read = [A::Speed; D];
-    type Term = A::Real;
+impl<A: Arithmetic, const D: usize> PairPass<A, D, D, 1> for ContinuityPass<A::Real> {
+    type Word = A::Speed;
     type Sum = A::Density;
     const PARITY: Parity = Parity::Symmetric;
-    #[inline]
+    #[inline(always)]
     fn reach_squared(&self) -> A::Real {
         self.reach_squared
     }
-    #[inline]
-    fn term(&self, x_ij: &[A::Real; D], r2: A::Real, u_i: Self::Read, u_j: Self::Read) -> A::Real {
-        let mut dot = u_i[0].difference::<A::Real>(u_j[0]) * x_ij[0];
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, i: &[L; D], j: &[L; D]) -> [L; 1] {
+        // Velocities stay below 2^51 quanta: they and their differences are exact.
+        let mut dot = (i[0] - j[0]) * x_ij[0];
         for d in 1..D {
-            dot = dot + u_i[d].difference::<A::Real>(u_j[d]) * x_ij[d];
+            dot = dot + (i[d] - j[d]) * x_ij[d];
         }
-        (dot * self.kernel.derivative_over_r(r2.sqrt())) * self.factor
-    }
-    #[inline]
-    fn add(sum: &A::Density, term: A::Real) -> Option<A::Density> {
-        add_scalar(sum, term)
+        [(dot * self.kernel.derivative_over_r(r2.root())) * L::splat(self.factor)]
     }
 }
 
@@ -115,10 +101,10 @@ pub struct WallGeometry<R> {
 
 impl<R: Real> WallGeometry<R> {
     /// s and r² + ε².
-    #[inline]
-    fn s(&self, r2: R) -> (R, R) {
-        let softened = r2 + self.softening_squared;
-        let s = (self.radius_squared + self.softening_squared) / softened;
+    #[inline(always)]
+    fn s<L: Lanes<R>>(&self, r2: L) -> (L, L) {
+        let softened = r2 + L::splat(self.softening_squared);
+        let s = L::splat(self.radius_squared + self.softening_squared) / softened;
         (s, softened)
     }
 }
@@ -131,24 +117,19 @@ pub struct WallPass<R> {
     pub(super) factor: R,
 }
 
-impl<A: Arithmetic, const D: usize> PairPass<A, D> for WallPass<A::Real> {
-    type Read = ();
-    type Term = [A::Real; D];
-    type Sum = [A::Speed; D];
+impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, D> for WallPass<A::Real> {
+    type Word = A::Real;
+    type Sum = A::Speed;
     const PARITY: Parity = Parity::Antisymmetric;
-    #[inline]
+    #[inline(always)]
     fn reach_squared(&self) -> A::Real {
         self.geometry.radius_squared
     }
-    #[inline]
-    fn term(&self, x_ij: &[A::Real; D], r2: A::Real, (): (), (): ()) -> Self::Term {
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; D] {
         let (s, softened) = self.geometry.s(r2);
-        let factor = ((s * s - s) / softened) * self.factor;
+        let factor = ((s * s - s) / softened) * L::splat(self.factor);
         x_ij.map(|x| factor * x)
-    }
-    #[inline]
-    fn add(sum: &Self::Sum, term: Self::Term) -> Option<Self::Sum> {
-        add_vector(sum, term)
     }
 }
 
@@ -158,23 +139,18 @@ pub struct WallEnergyPass<R> {
     pub(super) geometry: WallGeometry<R>,
 }
 
-impl<A: Arithmetic, const D: usize> PairPass<A, D> for WallEnergyPass<A::Real> {
-    type Read = ();
-    type Term = A::Real;
+impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, 1> for WallEnergyPass<A::Real> {
+    type Word = A::Real;
     type Sum = ExactSum;
     const PARITY: Parity = Parity::Symmetric;
-    #[inline]
+    #[inline(always)]
     fn reach_squared(&self) -> A::Real {
         self.geometry.radius_squared
     }
-    #[inline]
-    fn term(&self, _: &[A::Real; D], r2: A::Real, (): (), (): ()) -> A::Real {
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
         let (s, _) = self.geometry.s(r2);
-        let y = s - A::Real::from_f64(1.0);
-        A::Real::from_f64(0.25) * (y * y)
-    }
-    #[inline]
-    fn add(sum: &ExactSum, term: A::Real) -> Option<ExactSum> {
-        Some(sum.plus(term.to_f64()))
+        let y = s - L::splat(A::Real::from_f64(1.0));
+        [L::splat(A::Real::from_f64(0.25)) * (y * y)]
     }
 }

@@ -33,7 +33,12 @@ impl<A: Arithmetic, const D: usize> Standard<A, D> {
         self.forces.sort(system);
         let density = core::mem::take(&mut system.state.density);
         let wall_density = core::mem::take(&mut system.walls.density);
-        let result = self.continuity_sums(system, exec, density, wall_density);
+        let result = self.continuity_sums(
+            system,
+            exec,
+            density.as_chunks_mut().0,
+            wall_density.as_chunks_mut().0,
+        );
         system.state.density = density;
         system.walls.density = wall_density;
         system.progress.density_current = false;
@@ -46,8 +51,8 @@ impl<A: Arithmetic, const D: usize> Standard<A, D> {
         &self,
         system: &System<'_, A, D>,
         exec: &E,
-        density: &mut [A::Density],
-        wall_density: &mut [A::Density],
+        density: &mut [[A::Density; 1]],
+        wall_density: &mut [[A::Density; 1]],
     ) -> Result<(), Fault> {
         let forces = &self.forces;
         let pass = forces.continuity_pass(forces.parameters().time_step);
