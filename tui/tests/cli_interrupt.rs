@@ -2,9 +2,7 @@
 //! uninterrupted one leaves, byte for byte.
 #![cfg(unix)]
 
-mod program;
-
-use program::{Ended, Place, end, signal, wait_for_lines};
+use crate::program::{Ended, Place, end, signal, wait_for_lines};
 use std::fs;
 
 /// 325 particles, 2500 steps out and 2500 back, 1000 rows: a second or two.
@@ -115,18 +113,33 @@ fn a_run_that_was_killed_goes_on_from_its_latest_snapshot() {
 }
 
 #[test]
-fn a_second_signal_ends_the_program_at_once() {
+fn an_impatient_second_signal_loses_nothing() {
     let place = Place::new();
     let mut arguments = vec!["run", "--quiet", "--out", "broken", "--executor", "serial"];
     arguments.extend(SCENE);
     let child = place.start(&arguments);
     wait_for_lines(&place.join("broken"), LEGS[0]);
-    // Both signals wait for the one thread of the program, which has no time to react to the first.
+    // All signals wait for the one thread of the program, which has no time to react to the first.
     signal(&child, "STOP");
-    signal(&child, "INT");
-    signal(&child, "TERM");
+    for name in ["INT", "TERM", "HUP"] {
+        signal(&child, name);
+    }
     signal(&child, "CONT");
-    let ended = end(child).refused(130, &[]);
-    assert_eq!(ended.stderr, "");
-    assert_leg(&place, 0, "running");
+    assert_says_how_to_resume(end(child));
+    assert_leg(&place, 0, "interrupted");
+}
+
+#[test]
+fn a_directory_in_use_is_left_to_the_run_that_uses_it() {
+    let place = Place::new();
+    let mut arguments = vec!["run", "--quiet", "--out", "broken"];
+    arguments.extend(SCENE);
+    let child = place.start(&arguments);
+    wait_for_lines(&place.join("broken"), LEGS[0]);
+    arguments.push("--force");
+    place.call(&arguments).refused(3, &["broken is in use"]);
+    let resume = place.call(&["resume", "broken", "--quiet"]);
+    resume.refused(3, &["broken is in use"]);
+    signal(&child, "INT");
+    assert_says_how_to_resume(end(child));
 }

@@ -1,8 +1,6 @@
 //! The object that `--json` prints, the exit codes of a run, and where its files go.
 
-mod program;
-
-use program::{Place, files_below};
+use crate::program::{Place, files_below};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -95,7 +93,7 @@ fn the_result_has_the_documented_keys_and_stands_alone_on_standard_output() {
         "model": "symplectic",
         "integrator": "stormer-verlet",
         "arithmetic": "fixed",
-        "executor": "rayon",
+        "executor": "fast",
         "threads": 2,
         "reversed_exactly": true,
         "max_return_error_m": 0.0,
@@ -283,7 +281,7 @@ fn a_directory_that_exists_is_refused_and_left_alone() {
     assert!(files_below(&place.join("empty")).is_empty());
     fs::write(place.join("file"), "mine").expect("a file");
     arguments[3] = "file";
-    place.call(&arguments).refused(3, &["file exists already"]);
+    place.call(&arguments).refused(3, &["file is a file"]);
     arguments.push("--force");
     place.call(&arguments).refused(3, &["file"]);
     assert_eq!(fs::read(place.join("file")).expect("a file"), b"mine");
@@ -320,6 +318,22 @@ fn force_replaces_a_run_and_touches_no_file_of_others() {
         fs::remove_file(path).expect("removed");
     }
     assert!(place.essence("a") == place.essence("fresh"));
+}
+
+#[test]
+fn force_touches_nothing_where_there_was_no_run() {
+    let place = Place::new();
+    fs::create_dir(place.join("lesson")).expect("a directory");
+    for name in ["scene.toml", "series.csv"] {
+        fs::write(place.join("lesson").join(name), "mine").expect("a file");
+    }
+    let before = files_below(&place.join("lesson"));
+    let mut arguments = vec!["run", "--out", "lesson", "--force"];
+    arguments.extend(SMALL);
+    place
+        .call(&arguments)
+        .refused(3, &["lesson holds files of other origin"]);
+    assert!(before == files_below(&place.join("lesson")));
 }
 
 #[test]
@@ -370,7 +384,7 @@ fn a_disk_that_fills_up_in_mid_run_exits_with_3() {
         .current_dir(place.path())
         .output()
         .expect("a shell");
-    program::Ended::from(output).refused(3, &["cannot write a/series.csv"]);
+    crate::program::Ended::from(output).refused(3, &["cannot write a/series.csv"]);
 }
 
 #[cfg(target_os = "linux")]
@@ -380,11 +394,11 @@ fn a_full_standard_output_exits_with_3() {
     let mut arguments = vec!["run", "--json", "--quiet", "--out", "a"];
     arguments.extend(SMALL);
     let full = fs::OpenOptions::new().write(true).open("/dev/full");
-    let output = program::loschmidt(place.path(), &arguments)
+    let output = crate::program::loschmidt(place.path(), &arguments)
         .stdout(full.expect("/dev/full"))
         .output()
         .expect("the program starts");
-    program::Ended::from(output).refused(3, &["cannot write the result"]);
+    crate::program::Ended::from(output).refused(3, &["cannot write the result"]);
     // The run itself is safe.
     assert_eq!(place.manifest("a")["status"], "finished");
 }
@@ -397,6 +411,6 @@ fn nobody_listening_to_the_progress_does_not_stop_a_run() {
     arguments.extend(SMALL);
     let mut child = place.start(&arguments);
     drop(child.stderr.take());
-    let ended = program::end(child).with_code(0);
+    let ended = crate::program::end(child).with_code(0);
     assert_eq!(ended.json()["reversed_exactly"], true);
 }

@@ -1,9 +1,7 @@
 //! What cannot be resumed is told, and left as it is.
 #![cfg(unix)]
 
-mod program;
-
-use program::{Place, end, files_below, signal, wait_for_lines};
+use crate::program::{Place, end, files_below, signal, wait_for_lines};
 use std::fs;
 use std::path::Path;
 

@@ -1,8 +1,6 @@
 //! The other commands, and everything that is refused: exit code 2 and nothing on standard output.
 
-mod program;
-
-use program::Place;
+use crate::program::Place;
 use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
@@ -251,7 +249,7 @@ fn a_scene_far_too_large_is_refused_before_anything_is_allocated() {
 #[cfg(target_os = "linux")]
 mod interrupted {
     use super::*;
-    use program::{end, signal, wait_for, wait_for_lines};
+    use crate::program::{end, signal, wait_for, wait_for_lines};
 
     /// Largest memory that a process has held so far, bytes.
     fn peak(pid: u32) -> u64 {

@@ -121,7 +121,13 @@ impl Place {
         forget(&mut manifest, &["executor", "threads"]);
         forget(
             &mut manifest["result"],
-            &["executor", "threads", "wall_time_s", "ns_per_particle_step"],
+            &[
+                "executor",
+                "backend",
+                "threads",
+                "wall_time_s",
+                "ns_per_particle_step",
+            ],
         );
         (files, manifest)
     }

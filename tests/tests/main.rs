@@ -1,0 +1,22 @@
+//! The claims, all in one program: linked once instead of twenty times.
+
+mod arithmetic;
+mod caches;
+mod conformance;
+mod conservation;
+mod digest;
+mod energies;
+mod entropy;
+mod exact;
+mod faults;
+mod integrators;
+mod kernel;
+mod neighbours;
+mod number;
+mod player_moves;
+mod reversal;
+mod run_conservation;
+mod run_dam_break;
+mod run_faults;
+mod snapshot_bytes;
+mod standard;
