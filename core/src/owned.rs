@@ -1,5 +1,43 @@
 //! A system that owns its memory, in vectors of fixed capacity.
 //!
+//! ```
+//! use loschmidt_core::integrator::STORMER_VERLET;
+//! use loschmidt_core::model::{DensityCorrection, Gravity, StateEquation, Wall};
+//! use loschmidt_core::owned::Owned;
+//! use loschmidt_core::{Fixed, Forces, Model, Parameters, Scale, Serial, Symplectic};
+//!
+//! let spacing = 0.1; // m
+//! let parameters = Parameters {
+//!     support_radius: 3.0 * spacing,
+//!     time_step: 0.2 * 3.0 * spacing / 20.0,  // 0.2 h/c
+//!     mass: 1000.0 * spacing * spacing,       // reference density times the area of a particle
+//!     reference_density: 1000.0,
+//!     sound_speed: 20.0,
+//!     state_equation: StateEquation::Tait,
+//!     density_correction: DensityCorrection::Constant,
+//!     gravity: Gravity { uniform: [0.0, -9.8], central: None },
+//!     wall: Wall::None,
+//!     integrator: &STORMER_VERLET,
+//!     scale: Scale::with_headroom(1.0, 20.0, 1000.0),
+//!     extent: [1.0, 1.0],
+//!     max_buckets: 64,                        // so that B = 65 is enough
+//! };
+//! let model = Symplectic::<Fixed, 2>::new(Forces::new(parameters)?);
+//! let mut drop = Owned::<Fixed, _, 2, 25, 0, 65>::new(model)?;
+//! for i in 0..25 {
+//!     let at = |k: i32| (f64::from(k) + 0.5) * spacing;
+//!     drop.push_fluid([at(i % 5), at(i / 5)], [0.0, 0.0])?;
+//! }
+//! drop.initialise(&Serial)?;                  // once, after the last particle
+//! let home = drop.digest();
+//! drop.advance(100, &Serial)?;
+//! drop.reverse();
+//! drop.advance(100, &Serial)?;
+//! drop.reverse();                             // velocities along time again, as at home
+//! assert_eq!(drop.digest(), home);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! For targets without an allocator, and for small systems in tests. Capacities are const
 //! generics: N fluid particles, W wall particles, and B >= buckets + 1 words for each grid. A push
 //! beyond the capacity gives the particle back.

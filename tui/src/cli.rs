@@ -52,7 +52,8 @@ pub enum Command {
 pub struct SceneArguments {
     /// A scene file, or the name of a scene of the catalogue
     pub scene: String,
-    /// Override a key of the scene, for example particle_spacing=0.01; may be repeated
+    /// Override a key of the scene, for example particle_spacing=0.01 or region.0.shape.circle.radius=1;
+    /// an empty value removes the key; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }

@@ -1,7 +1,7 @@
 //! The fast executor: the core's sums in vector instructions, each pair once.
 //!
-//! [`strips`] lays the particles out so that neighbours are contiguous, [`sweep`] walks the pairs with
-//! the model's own pair terms written for rows, [`backend`] chooses the instructions at run time.
+//! `strips` lays the particles out so that neighbours are contiguous, `sweep` walks the pairs with
+//! the model's own pair terms written for rows, [`Backend`] chooses the instructions at run time.
 //! Parts of the strips go to threads, each with sums of its own, which are added afterwards.
 //!
 //! A sweep does not look at single terms for their range; instead, before it starts, the pass
