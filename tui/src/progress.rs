@@ -10,6 +10,31 @@ use std::time::{Duration, Instant};
 /// Between two plain lines at least.
 const PAUSE: Duration = Duration::from_secs(10);
 
+/// Says what is about to be run, and where its files go.
+pub fn announce(run: &Run) {
+    let player = run.player();
+    let path = run
+        .path()
+        .map(|path| format!(", written to {}", path.display()));
+    tell(&format!(
+        "{}: {} particles, {} steps, {} on {} thread(s){}",
+        player.scene().name,
+        player.home().id.len(),
+        run.plan().total(),
+        player.options().executor.name(),
+        player.threads(),
+        path.unwrap_or_default()
+    ));
+    let dt = player.scene().time_step();
+    for (name, limit) in setup::fixed_limits(player.scene()) {
+        if dt > limit {
+            tell(&format!(
+                "warning: the time step {dt:.2e} s exceeds the {name} limit {limit:.2e} s; see `loschmidt check`"
+            ));
+        }
+    }
+}
+
 /// Shows how far a run has come.
 pub enum Display {
     /// Nothing.
@@ -77,34 +102,6 @@ impl Display {
                     progress.step,
                     progress.total,
                     energies(progress)
-                ));
-            }
-        }
-    }
-
-    /// Says what is about to be run, and where its files go.
-    pub fn announce(&self, run: &Run) {
-        if matches!(self, Self::Quiet) {
-            return;
-        }
-        let player = run.player();
-        let path = run
-            .path()
-            .map(|path| format!(", written to {}", path.display()));
-        tell(&format!(
-            "{}: {} particles, {} steps, {} on {} thread(s){}",
-            player.scene().name,
-            player.home().id.len(),
-            run.plan().total(),
-            player.options().executor.name(),
-            player.threads(),
-            path.unwrap_or_default()
-        ));
-        let dt = player.scene().time_step();
-        for (name, limit) in setup::fixed_limits(player.scene()) {
-            if dt > limit {
-                tell(&format!(
-                    "warning: the time step {dt:.2e} s exceeds the {name} limit {limit:.2e} s; see `loschmidt check`"
                 ));
             }
         }

@@ -3,7 +3,7 @@
 use super::print;
 use crate::cli::{ResumeArguments, RunArguments, WorkArguments};
 use crate::exit::{Failure, NOT_EXACT};
-use crate::progress::Display;
+use crate::progress::{Display, announce};
 use crate::report;
 use loschmidt_runner::output::{Manifest, OutputError, free_directory};
 use loschmidt_runner::scene;
@@ -72,8 +72,10 @@ fn earlier(manifest: &Manifest) -> Options {
 
 fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<ExitCode, Failure> {
     let (done, total) = (run.player().steps_taken(), run.plan().total());
+    if !work.quiet {
+        announce(&run);
+    }
     let mut display = Display::new(work.quiet, done, total);
-    display.announce(&run);
     let result = run.execute(|progress| display.show(progress), stop);
     display.finish(result.is_ok());
     let outcome = result?;
