@@ -8,7 +8,8 @@
 use crate::exact::ExactSum;
 use crate::executor::Ids;
 use crate::fault::{Fault, FaultKind};
-use crate::model::{Forces, nothing};
+use crate::chain::nothing;
+use crate::model::Forces;
 use crate::number::{Arithmetic, Quantity, Real};
 use crate::pairs::{gather, separation};
 use crate::state::System;
