@@ -106,16 +106,23 @@ pub struct ChainSums<'a, S, W, T, const READ: usize, const FIRST: usize, const S
 }
 
 /// The memory for a chain C.
-pub type SumsOf<'a, A, C, const D: usize, const READ: usize, const FIRST: usize, const SECOND: usize> =
-    ChainSums<
-        'a,
-        <C as Chain<A, D, READ, FIRST, SECOND>>::FirstSum,
-        <C as Chain<A, D, READ, FIRST, SECOND>>::Word,
-        <C as Chain<A, D, READ, FIRST, SECOND>>::SecondSum,
-        READ,
-        FIRST,
-        SECOND,
-    >;
+pub type SumsOf<
+    'a,
+    A,
+    C,
+    const D: usize,
+    const READ: usize,
+    const FIRST: usize,
+    const SECOND: usize,
+> = ChainSums<
+    'a,
+    <C as Chain<A, D, READ, FIRST, SECOND>>::FirstSum,
+    <C as Chain<A, D, READ, FIRST, SECOND>>::Word,
+    <C as Chain<A, D, READ, FIRST, SECOND>>::SecondSum,
+    READ,
+    FIRST,
+    SECOND,
+>;
 
 /// A chain as what it means: one sum, then the other.
 ///

@@ -39,6 +39,7 @@ struct DensitiesAndImpulses<'a, A: Arithmetic, const D: usize> {
     first: DensityPass<A::Real>,
     second: PressurePass<A::Real>,
     pressure: PressureFactor<A::Real>,
+    uniform: Option<[A::Speed; D]>,
     duration: f64,
     id: &'a [u64],
     position: &'a [[A::Length; D]],
@@ -74,19 +75,44 @@ impl<A: Arithmetic, const D: usize> Chain<A, D, 1, 1, D> for DensitiesAndImpulse
     #[inline]
     fn resume(&self, i: usize) -> Result<[A::Speed; D], Fault> {
         self.forces
-            .gravity(&self.position[i], self.duration)
+            .gravity(self.uniform, &self.position[i], self.duration)
             .ok_or_else(|| Fault::new(FaultKind::TermRange, self.id[i]))
     }
 }
 
 impl<A: Arithmetic, const D: usize> Forces<A, D> {
-    /// Gravity in a kick of `duration` seconds at this position, in speed quanta.
-    fn gravity(&self, x: &[A::Length; D], duration: f64) -> Option<[A::Speed; D]> {
+    /// Uniform gravity in a kick of `duration` seconds, in speed quanta; `None` out of range.
+    fn uniform_gravity(&self, duration: f64) -> Option<[A::Speed; D]> {
         let s = self.parameters().scale;
         let mut impulse = [A::Speed::ZERO; D];
         for (i, g) in impulse.iter_mut().zip(self.parameters().gravity.uniform) {
             *i = i.add_rounded(duration * g / s.speed_quantum())?;
         }
+        Some(impulse)
+    }
+
+    /// The uniform one and, where there is one, the attraction of a mass at this position.
+    #[inline]
+    fn gravity(
+        &self,
+        uniform: Option<[A::Speed; D]>,
+        x: &[A::Length; D],
+        duration: f64,
+    ) -> Option<[A::Speed; D]> {
+        if self.parameters().gravity.central.is_none() {
+            return uniform;
+        }
+        self.central_gravity(uniform?, x, duration)
+    }
+
+    /// Adds the attraction of a mass.
+    fn central_gravity(
+        &self,
+        mut impulse: [A::Speed; D],
+        x: &[A::Length; D],
+        duration: f64,
+    ) -> Option<[A::Speed; D]> {
+        let s = self.parameters().scale;
         if let Some(central) = &self.parameters().gravity.central {
             let soft = central.softening / s.length_quantum();
             let (x_ic, r2) = crate::pairs::separation::<A, D>(x, self.centre());
@@ -123,9 +149,10 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         impulse: &mut [[A::Speed; D]],
     ) -> Result<(), Fault> {
         let State { id, position, .. } = &system.state;
+        let uniform = self.uniform_gravity(duration);
         exec.for_each(impulse, |i, out| {
             *out = self
-                .gravity(&position[i], duration)
+                .gravity(uniform, &position[i], duration)
                 .ok_or_else(|| Fault::new(FaultKind::TermRange, id[i]))?;
             Ok(())
         })?;
@@ -190,6 +217,7 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             first: self.density_pass(),
             second: self.pressure_pass(),
             pressure: self.pressure_factor(duration),
+            uniform: self.uniform_gravity(duration),
             duration,
             id,
             position,

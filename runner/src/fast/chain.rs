@@ -10,10 +10,10 @@
 //! it, and its last strip meets the first one of the part after; so the second sums of these two
 //! are taken afterwards, when the first sums are whole.
 
-use super::lanes::{Quad, ROW, Reals};
-use super::layout::{Layout, Meeting, Strip};
-use super::sweep::{Fresh, Known, Leg, Sums};
 use super::backend::Work;
+use super::lanes::{Quad, ROW, Reals};
+use super::layout::{Layout, Strip};
+use super::sweep::{Leg, Sums};
 use super::{Crew, LIMIT, Memory, larger};
 use loschmidt_core::chain::{Chain, ChainSet, SumsOf};
 use loschmidt_core::number::{Accumulate, Quantity, Real};
@@ -119,7 +119,12 @@ impl Memory {
             let first = &mut out.first[strip.places()];
             let words = &mut self.words[strip.rows().start * READ..][..strip.rows().len() * READ];
             finish::<A, C, D, READ, FIRST, SECOND>(
-                chain, &contributors, strip, first, words, &mut found,
+                chain,
+                &contributors,
+                strip,
+                first,
+                words,
+                &mut found,
             );
         }
         if let Some(fault) = found.fault {
@@ -249,90 +254,58 @@ where
         let mut found = Found::nothing();
         let reached = layout.rows_reached::<D>(&self.strips);
         let [firsts, seconds] = self.sums;
-        firsts.clear(reached.clone(), FIRST);
-        seconds.clear(reached.clone(), SECOND);
+        firsts.prepare(reached.clone(), FIRST);
+        seconds.prepare(reached.clone(), SECOND);
+        firsts.clear_some(layout.strips[self.strips.start].rows(), FIRST);
         let inner = inner(&self.strips, layout.strips.len() - 1);
         let (row_from, place_from) = (reached.start, layout.places_of(&self.strips).start);
-        let nobody = (Strip::default(), &[][..]);
         for s in self.strips.start..self.strips.end + 2 {
-            let strip_and_meets = |s: usize| (layout.strips[s], &layout.meets[s][..]);
-            let now = self.strips.contains(&s);
-            let (strip, meets) = if now { strip_and_meets(s) } else { nobody };
+            // Cleared shortly before they are added to, while they are in the cache anyway.
+            if let Some(strip) = layout.strips.get(s) {
+                seconds.clear_some(strip.rows(), SECOND);
+            }
+            if let Some(strip) = layout.strips.get(s + 1) {
+                firsts.clear_some(strip.rows(), FIRST);
+            }
+            let now = self.strips.contains(&s).then_some(s);
             let past = s.checked_sub(2).filter(|past| inner.contains(past));
-            let (past_strip, past_meets) = past.map_or(nobody, strip_and_meets);
             let mut fresh = std::mem::take(&mut self.arguments[s % 3]);
             let known = std::mem::take(&mut self.arguments[(s + 1) % 3]);
-            fresh.resize(fresh.len().max(strip.len + meets.len()), Reals::default());
-            let x = &layout.x[..];
             let words = (&*self.words, row_from);
-            let mut first = Leg::new(self.chain.first(), strip, x, (&[], 0), firsts);
-            let mut second = Leg::new(self.chain.second(), past_strip, x, words, seconds);
-            interleaved::<A, C, Q, D, READ, FIRST, SECOND>(
-                simd,
-                &mut first,
-                (strip.len, meets, &mut fresh),
-                &mut second,
-                (past_strip.len, past_meets, &known),
+            let mut first =
+                Leg::<A, _, D, 0, FIRST>::new(self.chain.first(), layout, now, (&[], 0), firsts);
+            let mut second = Leg::<A, _, D, READ, SECOND>::new(
+                self.chain.second(),
+                layout,
+                past,
+                words,
+                seconds,
             );
-            first.settle();
-            second.settle();
+            if fresh.len() < first.arguments() {
+                fresh.resize(first.arguments(), Reals::default());
+            }
+            let known_ones = &known[..second.arguments()];
+            first.along_with(simd, &mut fresh, &mut second, known_ones);
             self.arguments[s % 3] = fresh;
             self.arguments[(s + 1) % 3] = known;
             // The first sum of a part's first strip waits for the part before.
-            if now && (s > self.strips.start || s == 0) {
+            if let Some(strip) = now.filter(|&s| s > self.strips.start || s == 0) {
+                let strip = layout.strips[strip];
                 let places = strip.place - place_from..strip.place - place_from + strip.len;
                 let rows = strip.rows();
                 let rows = (rows.start - row_from) * READ..(rows.end - row_from) * READ;
                 let (out, words) = (&mut self.first[places], &mut self.words[rows]);
                 finish::<A, C, D, READ, FIRST, SECOND>(
-                    self.chain, &[&*firsts], strip, out, words, &mut found,
+                    self.chain,
+                    &[&*firsts],
+                    strip,
+                    out,
+                    words,
+                    &mut found,
                 );
             }
         }
         found
-    }
-}
-
-/// The first sum of one strip along with the second sum of another.
-#[inline(always)]
-fn interleaved<A, C, Q, const D: usize, const READ: usize, const FIRST: usize, const SECOND: usize>(
-    simd: Q,
-    first: &mut Leg<'_, A, C::First, D, 0, FIRST>,
-    (len, meets, fresh): (usize, &[Meeting], &mut [Reals]),
-    second: &mut Leg<'_, A, C::Second, D, READ, SECOND>,
-    (past_len, past_meets, known): (usize, &[Meeting], &[Reals]),
-) where
-    A: Arithmetic,
-    C: Chain<A, D, READ, FIRST, SECOND>,
-    Q: Quad,
-{
-    let (own, others) = fresh.split_at_mut(len);
-    let (past_own, past_others) = known.split_at(past_len.min(known.len()));
-    let both = len.min(past_len);
-    for k in 0..both {
-        own[k] = first.own(simd, k, Fresh);
-        second.own(simd, k, Known(past_own[k]));
-    }
-    for k in both..len {
-        own[k] = first.own(simd, k, Fresh);
-    }
-    for k in both..past_len {
-        second.own(simd, k, Known(past_own[k]));
-    }
-    let both = meets.len().min(past_meets.len());
-    let (meets, more) = meets.split_at(both);
-    let (past_meets, more_past) = past_meets.split_at(both);
-    let (fresh, more_fresh) = others.split_at_mut(both);
-    let (known, more_known) = past_others.split_at(both);
-    for (((m, fresh), past), known) in meets.iter().zip(fresh).zip(past_meets).zip(known) {
-        *fresh = first.other(simd, *m, Fresh);
-        second.other(simd, *past, Known(*known));
-    }
-    for (m, fresh) in more.iter().zip(more_fresh) {
-        *fresh = first.other(simd, *m, Fresh);
-    }
-    for (past, known) in more_past.iter().zip(more_known) {
-        second.other(simd, *past, Known(*known));
     }
 }
 
@@ -358,11 +331,9 @@ where
         let layout = self.layout;
         let inner = inner(&self.strips, layout.strips.len() - 1);
         for s in self.strips.filter(|s| !inner.contains(s)) {
-            let strip = layout.strips[s];
-            let pass = self.chain.second();
             let words = (self.words, 0);
-            let mut leg = Leg::<A, _, D, READ, SECOND>::new(pass, strip, &layout.x, words, self.sums);
-            leg.alone(simd, &layout.meets[s]);
+            let pass = self.chain.second();
+            Leg::<A, _, D, READ, SECOND>::new(pass, layout, Some(s), words, self.sums).alone(simd);
         }
     }
 }

@@ -16,6 +16,7 @@
 
 use super::backend::{Backend, Work};
 use super::lanes::{Quad, ROW, Reals};
+use super::meets::{Meeting, Meets};
 use super::sweep::Sums;
 use loschmidt_core::Arithmetic;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
@@ -39,9 +40,6 @@ const PARTICLES_PER_THREAD: usize = 2000;
 const STRIPS_PER_THREAD: usize = 4;
 /// Fewest particles worth a task of their own.
 const GRAIN: usize = 2048;
-
-/// A slot, and a row that it meets.
-pub(super) type Meeting = [u32; 2];
 
 /// A strip: its slots begin with a row; its particles are stored one after another.
 #[derive(Clone, Copy, Debug, Default)]
@@ -90,7 +88,7 @@ pub(super) struct Layout {
     /// Coordinates by row, D for each.
     pub x: Vec<Reals>,
     /// Who can meet whom, by strip.
-    pub meets: Vec<Vec<Meeting>>,
+    pub meets: Vec<Meets>,
     /// Upper bound of the displacement since the layout was made, quanta.
     travelled: f64,
     /// No particle has more candidates than this.
@@ -131,34 +129,26 @@ impl Layout {
         crew: Crew,
     ) {
         let same = self.is_of(state.position) && reach == self.reach;
-        if !(same && self.follow::<A, D>(state.position)) {
+        if !(same && self.follow::<A, D>(state.position, crew)) {
             self.make(reach, state, crew);
         }
     }
 
     /// Copies the positions; false where the layout has become too old.
-    fn follow<A: Arithmetic, const D: usize>(&mut self, position: &[[A::Length; D]]) -> bool {
+    fn follow<A: Arithmetic, const D: usize>(
+        &mut self,
+        position: &[[A::Length; D]],
+        crew: Crew,
+    ) -> bool {
         let mut x = std::mem::take(&mut self.x);
-        let step = self.for_parts(self.split_rows(&mut x, D), |strips, x| {
-            let first_row = self.rows_of(&strips).start;
-            let mut largest = 0.0f64;
-            for strip in &self.strips[strips] {
-                let rows = &mut x[(strip.rows().start - first_row) * D..];
-                for (rows, places) in rows
-                    .chunks_exact_mut(D)
-                    .zip(position[strip.places()].chunks(ROW))
-                {
-                    for (l, place) in places.iter().enumerate() {
-                        for d in 0..D {
-                            let new: f64 = place[d].quanta();
-                            let old = &mut rows[d].0[l];
-                            largest = largest.max((new - *old).abs());
-                            *old = new;
-                        }
-                    }
-                }
-            }
-            largest
+        let layout = &*self;
+        let step = layout.for_parts(layout.split_rows(&mut x, D), |strips, x| {
+            crew.backend.run(Following::<A, D> {
+                layout,
+                strips,
+                position,
+                x,
+            })
         });
         self.x = x;
         // A step of zero in rounding up is no step at all.
@@ -335,7 +325,11 @@ impl Layout {
     }
 
     /// Those of the sums, one for each part, to which this strip belongs.
-    pub fn contributors<'a, const TERM: usize>(&self, sums: &[&'a Sums], strip: &Strip) -> Vec<&'a Sums> {
+    pub fn contributors<'a, const TERM: usize>(
+        &self,
+        sums: &[&'a Sums],
+        strip: &Strip,
+    ) -> Vec<&'a Sums> {
         let row = strip.slot / ROW;
         let covers = |sums: &&&Sums| {
             row.checked_sub(sums.first_row)
@@ -358,8 +352,7 @@ impl Layout {
     /// Splits something with one item a particle among the parts.
     pub fn split_places<'a, T>(&self, mut items: &'a mut [T]) -> Vec<&'a mut [T]> {
         let split = |part| {
-            let (first, rest) =
-                std::mem::take(&mut items).split_at_mut(self.places_of(part).len());
+            let (first, rest) = std::mem::take(&mut items).split_at_mut(self.places_of(part).len());
             items = rest;
             first
         };
@@ -405,7 +398,7 @@ impl Layout {
     /// Lists who can meet whom.
     fn list_meetings<const D: usize>(&mut self, crew: Crew) {
         let mut meets = std::mem::take(&mut self.meets);
-        meets.resize_with(self.strips.len() - 1, Vec::new);
+        meets.resize_with(self.strips.len() - 1, Meets::default);
         let mut rest = &mut meets[..];
         let split = |part: &Range<usize>| {
             let (first, others) = std::mem::take(&mut rest).split_at_mut(part.len());
@@ -416,10 +409,12 @@ impl Layout {
         let layout = &*self;
         layout.for_parts(parts, |strips, meets| {
             for (strip, meets) in strips.zip(meets) {
-                crew.backend.run(Listing::<D> {
-                    layout,
-                    strip,
-                    meets,
+                meets.renew(|list| {
+                    crew.backend.run(Listing::<D> {
+                        layout,
+                        strip,
+                        list,
+                    })
                 });
             }
         });
@@ -473,7 +468,15 @@ impl Layout {
     /// An upper bound of the candidates of any particle, `most` being in the fullest cell.
     fn count_candidates<const D: usize>(&self, most: usize) -> usize {
         const ALL: [(isize, isize); 9] = [
-            (0, 0), (1, 0), (-1, 0), (0, 1), (1, 1), (-1, 1), (0, -1), (1, -1), (-1, -1),
+            (0, 0),
+            (1, 0),
+            (-1, 0),
+            (0, 1),
+            (1, 1),
+            (-1, 1),
+            (0, -1),
+            (1, -1),
+            (-1, -1),
         ];
         let offsets = if D == 2 { &ALL[..3] } else { &ALL };
         let rough = offsets.len() * (2 * self.far + 1) * most;
@@ -491,16 +494,69 @@ impl Layout {
     }
 
     /// The strips and their cells that can hold particles within `radius` of x.
-    pub fn near<const D: usize>(&self, x: &[f64; D], radius: f64) -> impl Iterator<Item = Range<usize>> {
+    pub fn near<const D: usize>(
+        &self,
+        x: &[f64; D],
+        radius: f64,
+    ) -> impl Iterator<Item = Range<usize>> {
         let corner = |sign: f64| {
             let x = x.map(|x| x + sign * radius * 1.000_001);
             let strip = self.strip_of(&x);
-            (strip % self.count[0], strip / self.count[0], self.column_of(x[0]))
+            (
+                strip % self.count[0],
+                strip / self.count[0],
+                self.column_of(x[0]),
+            )
         };
         let ((y0, z0, c0), (y1, z1, c1)) = (corner(-1.0), corner(1.0));
-        (z0..=z1).flat_map(move |z| {
-            (y0..=y1).map(move |y| self.window(z * self.count[0] + y, c0, c1))
-        })
+        (z0..=z1)
+            .flat_map(move |z| (y0..=y1).map(move |y| self.window(z * self.count[0] + y, c0, c1)))
+    }
+}
+
+/// Some strips, whose coordinates are to be copied.
+struct Following<'a, A: Arithmetic, const D: usize> {
+    layout: &'a Layout,
+    strips: Range<usize>,
+    position: &'a [[A::Length; D]],
+    /// Rows of these strips.
+    x: &'a mut [Reals],
+}
+
+impl<A: Arithmetic, const D: usize> Work for Following<'_, A, D> {
+    /// The largest displacement along an axis.
+    type Output = f64;
+    #[inline(always)]
+    fn run<Q: Quad>(self, _: Q) -> f64 {
+        let first_row = self.layout.rows_of(&self.strips).start;
+        let mut largest = [0.0f64; ROW];
+        for strip in &self.layout.strips[self.strips] {
+            let rows = &mut self.x[(strip.rows().start - first_row) * D..];
+            let (whole, rest) = self.position[strip.places()].as_chunks::<ROW>();
+            let (rows, last) = rows.split_at_mut(whole.len() * D);
+            for (row, places) in rows.chunks_exact_mut(D).zip(whole) {
+                for (d, row) in row.iter_mut().enumerate() {
+                    for l in 0..ROW {
+                        let new: f64 = places[l][d].quanta();
+                        let moved = (new - row.0[l]).abs();
+                        largest[l] = if moved > largest[l] {
+                            moved
+                        } else {
+                            largest[l]
+                        };
+                        row.0[l] = new;
+                    }
+                }
+            }
+            for (l, place) in rest.iter().enumerate() {
+                for (row, x) in last.iter_mut().zip(place) {
+                    let new: f64 = x.quanta();
+                    largest[l] = largest[l].max((new - row.0[l]).abs());
+                    row.0[l] = new;
+                }
+            }
+        }
+        largest.into_iter().fold(0.0, f64::max)
     }
 }
 
@@ -508,17 +564,19 @@ impl Layout {
 struct Listing<'a, const D: usize> {
     layout: &'a Layout,
     strip: usize,
-    meets: &'a mut Vec<Meeting>,
+    list: &'a mut Vec<Meeting>,
 }
 
 impl<const D: usize> Work for Listing<'_, D> {
-    type Output = ();
+    /// How many meetings of the list count.
+    type Output = usize;
     #[inline(always)]
-    fn run<Q: Quad>(self, simd: Q) {
+    fn run<Q: Quad>(self, simd: Q) -> usize {
         let layout = self.layout;
         let strip = layout.strips[self.strip];
         let within = (layout.reach + layout.skin) * (layout.reach + layout.skin);
         let within = simd.splat(within);
+        let first_row = strip.rows().start;
         let mut length = 0;
         for column in 0..layout.columns {
             let cell = layout.cell(self.strip, column);
@@ -544,9 +602,10 @@ impl<const D: usize> Work for Listing<'_, D> {
             for place in cell {
                 let slot = place - strip.place + strip.slot;
                 windows[0] = slot / ROW + 1..own_end;
-                if self.meets.len() < length + candidates {
-                    self.meets.resize(length + candidates, [0, 0]);
+                if self.list.len() < length + candidates {
+                    self.list.resize(length + candidates, [0, 0]);
                 }
+                let k = (place - strip.place) as u32;
                 let x_i = &layout.x[slot / ROW * D..][..D];
                 for window in &windows {
                     for row in window.clone() {
@@ -558,13 +617,13 @@ impl<const D: usize> Work for Listing<'_, D> {
                             r2 = simd.add(r2, simd.mul(x_ij, x_ij));
                         }
                         // Written in any case, and kept where it counts: no branch to predict.
-                        self.meets[length] = [slot as u32, row as u32];
+                        self.list[length] = [k, (row - first_row) as u32];
                         length += usize::from(simd.any_below(r2, within));
                     }
                 }
             }
         }
-        self.meets.truncate(length);
+        length
     }
 }
 

@@ -15,6 +15,7 @@ mod backend;
 mod chain;
 mod lanes;
 mod layout;
+mod meets;
 mod sweep;
 mod walls;
 
@@ -65,14 +66,10 @@ const ITEMS_PER_THREAD: usize = 4000;
 /// Terms of this magnitude and more, in quanta, are out of range: 2^51.
 const LIMIT: f64 = (1u64 << 51) as f64;
 
-/// The larger magnitude; written so that a NaN stays.
+/// The larger magnitude, and a NaN before all: as integers the bits of magnitudes are in order.
 #[inline(always)]
 fn larger(largest: f64, word: f64) -> f64 {
-    if word.abs() <= largest || largest.is_nan() {
-        largest
-    } else {
-        word.abs()
-    }
+    f64::from_bits(largest.to_bits().max(word.abs().to_bits()))
 }
 
 impl Memory {

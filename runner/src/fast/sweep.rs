@@ -4,10 +4,16 @@
 //! the reach vanish by themselves: the kernel is zero there. What the neighbours receive is added
 //! in place, for they are contiguous; what i receives is kept in a row of its own until the strip is
 //! done. There is no branch whose outcome depends on the particles.
+//!
+//! This is the one module with `unsafe`: rows are read and written without looking at their bounds
+//! for each pair, which took a third of the time. The bounds of a strip are compared once, in
+//! [`Leg::new`].
+#![allow(unsafe_code)]
 
 use super::backend::Work;
 use super::lanes::{Pack, Quad, ROW, Reals, Words};
-use super::layout::{Layout, Meeting, Strip};
+use super::layout::{Layout, Strip};
+use super::meets::{Meeting, Meets};
 use loschmidt_core::Arithmetic;
 use loschmidt_core::pairs::{PairPass, Parity};
 use std::marker::PhantomData;
@@ -40,6 +46,19 @@ impl Sums {
         self.rows.resize(rows.len() * components, Words::default());
     }
 
+    /// Room for `components` in each of these rows, whatever is in it.
+    pub fn prepare(&mut self, rows: Range<usize>, components: usize) {
+        self.first_row = rows.start;
+        self.rows.resize(rows.len() * components, Words::default());
+    }
+
+    /// Zeroes in these rows, as far as there is room for them.
+    pub fn clear_some(&mut self, rows: Range<usize>, components: usize) {
+        let place = |row: usize| ((row - self.first_row) * components).min(self.rows.len());
+        let rows = place(rows.start)..place(rows.end);
+        self.rows[rows].fill(Words::default());
+    }
+
     /// Component k of a slot.
     #[inline(always)]
     pub fn of<const TERM: usize>(&self, slot: usize, k: usize) -> i64 {
@@ -47,15 +66,15 @@ impl Sums {
     }
 }
 
-/// A pass over one strip.
+/// A pass over one strip. All slices begin with its first row.
 pub(super) struct Leg<'a, A, P, const D: usize, const READ: usize, const TERM: usize> {
     pass: &'a P,
     strip: Strip,
+    meets: &'a [Meeting],
     x: &'a [Reals],
     words: &'a [Reals],
-    words_from: usize,
     sums: &'a mut [Words],
-    sums_from: usize,
+    /// TERM rows for each particle.
     received: &'a mut [Words],
     arithmetic: PhantomData<A>,
 }
@@ -112,57 +131,84 @@ where
     A: Arithmetic,
     P: PairPass<A, D, READ, TERM>,
 {
-    /// A pass over a strip. `words` are READ to a row, from row `words_from` on.
+    /// A pass over strip number `s`. `words` are READ to a row, from row `words_from` on.
+    ///
+    /// # Panics
+    /// Rows that the strip meets lie outside the words or the sums.
     #[inline(always)]
     pub fn new(
         pass: &'a P,
-        strip: Strip,
-        x: &'a [Reals],
+        layout: &'a Layout,
+        s: Option<usize>,
         (words, words_from): (&'a [Reals], usize),
         sums: &'a mut Sums,
     ) -> Self {
-        sums.received.resize(sums.received.len().max(strip.len * TERM), Words::default());
+        let nobody = (Strip::default(), const { &Meets::new() });
+        let (strip, meets) = s.map_or(nobody, |s| (layout.strips[s], &layout.meets[s]));
+        let rows = strip.rows();
+        let reached = meets.rows().max(rows.len());
+        let received = strip.len * TERM;
+        if sums.received.len() < received {
+            sums.received.resize(received, Words::default());
+        }
+        let x = &layout.x[rows.start * D..];
+        let words = match READ {
+            0 => &[],
+            _ if reached == 0 => &[],
+            _ => &words[(rows.start - words_from) * READ..],
+        };
+        let sums_of = match reached {
+            0 => &mut [],
+            _ => &mut sums.rows[(rows.start - sums.first_row) * TERM..],
+        };
+        // What `meet` relies on.
+        assert!(meets.particles() <= strip.len && strip.len <= rows.len() * ROW);
+        assert!(reached * D <= x.len());
+        assert!(reached * READ <= words.len());
+        assert!(reached * TERM <= sums_of.len());
         Self {
             pass,
             strip,
+            meets: meets.list(),
             x,
             words,
-            words_from,
-            sums: &mut sums.rows,
-            sums_from: sums.first_row,
-            received: &mut sums.received,
+            sums: sums_of,
+            received: &mut sums.received[..received],
             arithmetic: PhantomData,
         }
     }
 
-    /// The particle in place k of the strip meets those that come after it in its row. Returns the
-    /// arguments of the terms.
+    /// Particle k meets a row. With OWN, it is its own row, and only those that come after k count.
+    /// Returns the argument of the terms.
+    ///
+    /// # Safety
+    /// k is below the number of particles of the strip; `row` is one of the strip's own or of its
+    /// meetings.
     #[inline(always)]
-    pub fn own<Q: Quad>(&mut self, simd: Q, k: usize, argument: impl Argument<Q>) -> Reals {
-        let i = self.strip.slot + k;
-        self.meet::<Q, true>(simd, i, i / ROW, argument)
-    }
-
-    /// A particle meets a row of its list.
-    #[inline(always)]
-    pub fn other<Q: Quad>(&mut self, simd: Q, m: Meeting, argument: impl Argument<Q>) -> Reals {
-        self.meet::<Q, false>(simd, m[0] as usize, m[1] as usize, argument)
-    }
-
-    #[inline(always)]
-    fn meet<Q: Quad, const OWN: bool>(
+    unsafe fn meet<Q: Quad, const OWN: bool>(
         &mut self,
         simd: Q,
-        i: usize,
+        k: usize,
         row: usize,
         argument: impl Argument<Q>,
     ) -> Reals {
-        let x_i = &self.x[i / ROW * D..][..D];
-        let x_j = &self.x[row * D..][..D];
+        debug_assert!(k < self.strip.len);
+        // SAFETY: `new` has made sure that all rows of the strip and of its meetings are in these
+        // slices, and k < strip.len, so that row k / ROW is one of the strip.
+        let (x_i, x_j, words_i, words_j, sums, received) = unsafe {
+            (
+                rows_at::<_, D>(self.x, k / ROW),
+                rows_at::<_, D>(self.x, row),
+                rows_at::<_, READ>(self.words, k / ROW),
+                rows_at::<_, READ>(self.words, row),
+                rows_at_mut::<_, TERM>(self.sums, row),
+                rows_at_mut::<_, TERM>(self.received, k),
+            )
+        };
         let zero = Pack::<A::Real, Q>::new(simd, simd.splat(0.0));
         let mut x_ij = [zero; D];
         for d in 0..D {
-            let x_i = simd.splat(x_i[d].0[i % ROW]);
+            let x_i = simd.splat(x_i[d].0[k % ROW]);
             x_ij[d] = Pack::new(simd, simd.sub(x_i, simd.load(x_j[d])));
         }
         let mut r2 = x_ij[0] * x_ij[0];
@@ -170,64 +216,149 @@ where
             r2 = r2 + *x * *x;
         }
         if OWN {
-            r2 = r2 + Pack::new(simd, simd.load(AFTER[i % ROW]));
+            r2 = r2 + Pack::new(simd, simd.load(AFTER[k % ROW]));
         }
         let argument = argument.get::<A, P, D, READ, TERM>(self.pass, r2);
         let (mut read_i, mut read_j) = ([zero; READ], [zero; READ]);
-        if READ > 0 {
-            let words_i = &self.words[(i / ROW - self.words_from) * READ..][..READ];
-            let words_j = &self.words[(row - self.words_from) * READ..][..READ];
-            for k in 0..READ {
-                read_i[k] = Pack::new(simd, simd.splat(words_i[k].0[i % ROW]));
-                read_j[k] = Pack::new(simd, simd.load(words_j[k]));
-            }
+        for c in 0..READ {
+            read_i[c] = Pack::new(simd, simd.splat(words_i[c].0[k % ROW]));
+            read_j[c] = Pack::new(simd, simd.load(words_j[c]));
         }
         let term = self.pass.term(&x_ij, argument, &read_i, &read_j);
-        let sums = &mut self.sums[(row - self.sums_from) * TERM..][..TERM];
-        let received = &mut self.received[(i - self.strip.slot) * TERM..][..TERM];
-        for k in 0..TERM {
-            let rounded = simd.round(term[k].row);
-            let old = simd.load_words(sums[k]);
-            sums[k] = simd.store_words(match P::PARITY {
+        for c in 0..TERM {
+            let rounded = simd.round(term[c].row);
+            let old = simd.load_words(sums[c]);
+            sums[c] = simd.store_words(match P::PARITY {
                 Parity::Symmetric => simd.plus(old, rounded),
                 Parity::Antisymmetric => simd.minus(old, rounded),
             });
-            received[k] = simd.store_words(if OWN {
+            received[c] = simd.store_words(if OWN {
                 // The first that i receives in this strip.
                 rounded
             } else {
-                simd.plus(simd.load_words(received[k]), rounded)
+                simd.plus(simd.load_words(received[c]), rounded)
             });
         }
         simd.store(argument.row)
     }
 
+    /// Every particle meets those that come after it in its own row.
+    #[inline(always)]
+    fn own<Q: Quad>(&mut self, simd: Q, k: usize, argument: impl Argument<Q>) -> Reals {
+        assert!(k < self.strip.len);
+        // SAFETY: k is a particle of the strip and k / ROW its row.
+        unsafe { self.meet::<Q, true>(simd, k, k / ROW, argument) }
+    }
+
+    /// Meeting number m of the list.
+    #[inline(always)]
+    fn other<Q: Quad>(&mut self, simd: Q, m: usize, argument: impl Argument<Q>) -> Reals {
+        let [k, row] = self.meets[m];
+        // SAFETY: the bounds of the meetings are those that `new` has compared.
+        unsafe { self.meet::<Q, false>(simd, k as usize, row as usize, argument) }
+    }
+
     /// The whole strip.
     #[inline(always)]
-    pub fn alone<Q: Quad>(&mut self, simd: Q, meets: &[Meeting]) {
+    pub fn alone<Q: Quad>(&mut self, simd: Q) {
         for k in 0..self.strip.len {
             self.own(simd, k, Fresh);
         }
-        for meeting in meets {
-            self.other(simd, *meeting, Fresh);
+        for m in 0..self.meets.len() {
+            self.other(simd, m, Fresh);
         }
         self.settle();
     }
 
+    /// Number of arguments of terms.
+    #[inline(always)]
+    pub fn arguments(&self) -> usize {
+        self.strip.len + self.meets.len()
+    }
+
+    /// The whole strip along with that of another pass, pair by pair. The arguments of the terms are
+    /// written to `fresh`; those of the other's are `known`.
+    ///
+    /// # Panics
+    /// There are not as many as [`Leg::arguments`].
+    #[inline(always)]
+    pub fn along_with<Q, P2, const READ2: usize, const TERM2: usize>(
+        &mut self,
+        simd: Q,
+        fresh: &mut [Reals],
+        second: &mut Leg<'_, A, P2, D, READ2, TERM2>,
+        known: &[Reals],
+    ) where
+        Q: Quad,
+        P2: PairPass<A, D, READ2, TERM2>,
+    {
+        let (own, others) = fresh.split_at_mut(self.strip.len);
+        let (known_own, known_others) = known.split_at(second.strip.len);
+        let both = own.len().min(known_own.len());
+        for k in 0..both {
+            own[k] = self.own(simd, k, Fresh);
+            second.own(simd, k, Known(known_own[k]));
+        }
+        for (k, fresh) in own.iter_mut().enumerate().skip(both) {
+            *fresh = self.own(simd, k, Fresh);
+        }
+        for (k, known) in known_own.iter().enumerate().skip(both) {
+            second.own(simd, k, Known(*known));
+        }
+        let others = &mut others[..self.meets.len()];
+        let known_others = &known_others[..second.meets.len()];
+        let both = others.len().min(known_others.len());
+        for m in 0..both {
+            others[m] = self.other(simd, m, Fresh);
+            second.other(simd, m, Known(known_others[m]));
+        }
+        for (m, fresh) in others.iter_mut().enumerate().skip(both) {
+            *fresh = self.other(simd, m, Fresh);
+        }
+        for (m, known) in known_others.iter().enumerate().skip(both) {
+            second.other(simd, m, Known(*known));
+        }
+        self.settle();
+        second.settle();
+    }
+
     /// Adds what the particles have received as i.
     #[inline(always)]
-    pub fn settle(&mut self) {
-        for k in 0..self.strip.len {
-            let slot = self.strip.slot + k;
-            let sums = &mut self.sums[(slot / ROW - self.sums_from) * TERM..][..TERM];
-            let received = &self.received[k * TERM..][..TERM];
-            for (sum, row) in sums.iter_mut().zip(received) {
-                let [a, b, c, d] = row.0;
-                let total = a.wrapping_add(b).wrapping_add(c.wrapping_add(d));
-                sum.0[slot % ROW] = sum.0[slot % ROW].wrapping_add(total);
+    fn settle(&mut self) {
+        let sums = self.sums.chunks_exact_mut(TERM);
+        let received = self.received.chunks(ROW * TERM);
+        for (sums, received) in sums.zip(received) {
+            for (l, received) in received.chunks_exact(TERM).enumerate() {
+                for (sum, row) in sums.iter_mut().zip(received) {
+                    let [a, b, c, d] = row.0;
+                    let total = a.wrapping_add(b).wrapping_add(c.wrapping_add(d));
+                    sum.0[l] = sum.0[l].wrapping_add(total);
+                }
             }
         }
     }
+}
+
+/// Row number `row` of an array with N items to a row.
+///
+/// # Safety
+/// The array has such a row.
+#[inline(always)]
+unsafe fn rows_at<T, const N: usize>(items: &[T], row: usize) -> &[T; N] {
+    debug_assert!((row + 1) * N <= items.len());
+    // SAFETY: an array of N has the layout of N items, and the caller vouches for their being there.
+    unsafe { &*items.as_ptr().add(row * N).cast::<[T; N]>() }
+}
+
+/// As [`rows_at`].
+///
+/// # Safety
+/// The array has such a row.
+#[inline(always)]
+unsafe fn rows_at_mut<T, const N: usize>(items: &mut [T], row: usize) -> &mut [T; N] {
+    debug_assert!((row + 1) * N <= items.len());
+    // SAFETY: as in `rows_at`; the array is borrowed for as long as the row.
+    unsafe { &mut *items.as_mut_ptr().add(row * N).cast::<[T; N]>() }
 }
 
 /// One pass over some strips.
@@ -251,10 +382,9 @@ where
     fn run<Q: Quad>(self, simd: Q) {
         let layout = self.layout;
         for s in self.strips {
-            let strip = layout.strips[s];
             let words = (self.words, 0);
-            let mut leg = Leg::<A, P, D, READ, TERM>::new(self.pass, strip, &layout.x, words, self.sums);
-            leg.alone(simd, &layout.meets[s]);
+            Leg::<A, P, D, READ, TERM>::new(self.pass, layout, Some(s), words, self.sums)
+                .alone(simd);
         }
     }
 }
