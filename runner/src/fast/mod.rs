@@ -193,6 +193,19 @@ impl Executor for Fast {
         }
     }
 
+    fn for_both<T: Send, U: Send>(
+        &self,
+        a: &mut [T],
+        b: &mut [U],
+        f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
+    ) -> Result<(), Fault> {
+        if self.crew.threads == 1 || a.len() < 2 * ITEMS_PER_THREAD {
+            loschmidt_core::Serial.for_both(a, b, f)
+        } else {
+            self.rayon.for_both(a, b, f)
+        }
+    }
+
     fn locate<A: Arithmetic, const D: usize>(
         &self,
         grid: &Grid<D>,
