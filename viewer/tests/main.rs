@@ -1,0 +1,4 @@
+//! What the pictures promise.
+
+mod home;
+mod pixels;
