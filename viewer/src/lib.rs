@@ -11,6 +11,7 @@
 //!    initial state.
 //! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
 //!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
+//! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
 //! every machine. Every thread owns the rows it draws, sums over particles are sums of integers or
@@ -25,6 +26,7 @@ pub mod draw;
 pub mod field;
 pub mod history;
 pub mod home;
+pub mod movie;
 pub mod picture;
 pub mod plot;
 pub mod png;
