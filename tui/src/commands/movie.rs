@@ -98,6 +98,7 @@ fn of_run(
     let run = Stored::open(path)?;
     let seconds = run.frames() as f64 / f64::from(arguments.fps);
     let style = style(arguments, tint, seconds)?;
+    run.suffices(&style)?;
     let mut movie = create(arguments, style, &run.scene().name, &run.identity())?;
     announce(arguments, &movie);
     if !movie.is_finished() {

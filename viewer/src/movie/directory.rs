@@ -282,11 +282,13 @@ fn remove(path: &Path) -> Result<(), MovieError> {
 /// # Errors
 /// It is missing or not a PNG.
 pub(super) fn read_picture(path: &Path) -> Result<Raster, MovieError> {
-    let file = File::open(path).map_err(MovieError::io("read", path))?;
-    png::read(BufReader::new(file), Rgb(0xff_ff_ff)).map_err(|source| MovieError::Picture {
-        path: path.to_owned(),
-        source,
-    })
+    File::open(path)
+        .map_err(Into::into)
+        .and_then(|file| png::read(BufReader::new(file), Rgb(0xff_ff_ff)))
+        .map_err(|source| MovieError::Picture {
+            path: path.to_owned(),
+            source,
+        })
 }
 
 impl crate::Picture {

@@ -34,7 +34,7 @@ pub enum MovieError {
         source: std::io::Error,
     },
     /// A picture that cannot be read.
-    #[error("{} is not a picture that can be read: {source}", path.display())]
+    #[error("{} cannot be read as a PNG picture: {source}", path.display())]
     Picture {
         /// The file.
         path: PathBuf,
@@ -46,7 +46,7 @@ pub enum MovieError {
     Unfinished(PathBuf),
     /// A run with too few frames.
     #[error(
-        "the run in {} stored {stored} frames, and {wanted} pictures were asked for\nhelp: --seconds {} shows each frame once; for more, simulate again with\n    loschmidt movie {}",
+        "the run in {} stored {stored} frames, and {wanted} pictures were asked for\nhelp: --seconds {} shows each frame once; `loschmidt run --set output.frames={wanted}` stores more, and\n    loschmidt movie {}\nsimulates again",
         path.display(),
         (10.0 * *stored as f64 / f64::from(*fps)).floor() / 10.0,
         path.join("scene.toml").display()

@@ -3,7 +3,7 @@
 use super::directory::Movie;
 use super::error::MovieError;
 use super::simulate::with_commas;
-use super::{Progress, Schedule};
+use super::{Progress, Schedule, Style};
 use crate::draw::{Look, Pane, draw};
 use crate::history::History;
 use crate::home::Home;
@@ -74,6 +74,22 @@ impl Stored {
         self.steps.len()
     }
 
+    /// Whether there is a frame for every picture of a movie.
+    ///
+    /// # Errors
+    /// There are too few.
+    pub fn suffices(&self, style: &Style) -> Result<(), MovieError> {
+        if style.pictures > self.frames() {
+            return Err(MovieError::FewFrames {
+                path: self.path.clone(),
+                stored: self.frames(),
+                wanted: style.pictures,
+                fps: style.fps,
+            });
+        }
+        Ok(())
+    }
+
     /// A text of everything that the frames depend on.
     #[must_use]
     pub fn identity(&self) -> String {
@@ -132,14 +148,7 @@ impl Movie {
         stop: &AtomicBool,
     ) -> Result<(), MovieError> {
         let total = self.style.pictures;
-        if total > run.frames() {
-            return Err(MovieError::FewFrames {
-                path: run.path.clone(),
-                stored: run.frames(),
-                wanted: total,
-                fps: self.style.fps,
-            });
-        }
+        run.suffices(&self.style)?;
         let schedule = Schedule::new(&run.plan, total);
         let first = run.frame(0)?;
         let home = Home::new(&run.scene, &first);
