@@ -265,9 +265,12 @@ fn sentence(fate: &Fate) -> String {
         Some(home) if home.is_exact() => {
             format!("{arithmetic} point came home: every bit of the last state equals the first\n")
         }
-        Some(home) => format!(
-            "{arithmetic} point did not come home: a particle is up to {:.3} m away\n",
-            home.error
-        ),
+        Some(home) => {
+            let far = match home.error {
+                error if error < 0.001 => format!("{error:.1e}"),
+                error => format!("{error:.3}"),
+            };
+            format!("{arithmetic} point did not come home: a particle is up to {far} m away\n")
+        }
     }
 }
