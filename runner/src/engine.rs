@@ -168,11 +168,11 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
         let system = self.storage.system();
         let state = &system.state;
         let fields = state.fields().into_iter().enumerate().map(|(f, field)| {
-            let words = places
-                .iter()
-                .flat_map(|&p| (0..field.components).map(move |c| (p, c)))
-                .map(|(p, c)| state.word(f, c, p));
-            (field.name.to_owned(), words.collect())
+            let mut words = Vec::with_capacity(places.len() * field.components);
+            for &place in &places {
+                words.extend((0..field.components).map(|c| state.word(f, c, place)));
+            }
+            (field.name.to_owned(), words)
         });
         SavedState {
             dimension: D,

@@ -77,7 +77,6 @@ impl Return {
 /// A simulation with a position in time.
 pub struct Player {
     scene: Scene,
-    initial: InitialState,
     options: Options,
     simulation: Box<dyn Simulation>,
     home: SavedState,
@@ -94,11 +93,11 @@ impl Player {
     /// [`BuildError`].
     pub fn new(scene: Scene, initial: InitialState, options: Options) -> Result<Self, BuildError> {
         let mut simulation = setup::simulation(&scene, &initial, &options)?;
+        drop(initial);
         Ok(Self {
             home: simulation.save(),
             home_digest: simulation.digest(),
             scene,
-            initial,
             options,
             simulation,
             position: 0,
@@ -274,7 +273,8 @@ impl Player {
             arithmetic,
             ..self.options
         };
-        let mut other = setup::simulation(&self.scene, &self.initial, &options)?;
+        let initial = self.home.initial_state();
+        let mut other = setup::simulation(&self.scene, &initial, &options)?;
         other.restore(&self.simulation.save().converted(arithmetic))?;
         self.simulation = other;
         self.options = options;

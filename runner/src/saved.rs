@@ -3,6 +3,7 @@
 //! What a snapshot file stores, what a player keeps of its home, and what two states are compared
 //! by. Particles are in id order.
 
+use crate::scene::InitialState;
 use loschmidt_core::Scale;
 
 /// Which arithmetic the words belong to.
@@ -49,6 +50,19 @@ pub struct SavedState {
 }
 
 impl SavedState {
+    /// Where the particles are, as a scene would have placed them.
+    #[must_use]
+    pub fn initial_state(&self) -> InitialState {
+        let particles = 0..self.id.len();
+        let quantum = self.scale.length_quantum();
+        let walls = self.wall_position.chunks_exact(self.dimension.max(1));
+        InitialState {
+            fluid: particles.clone().map(|n| self.position(n)).collect(),
+            fluid_velocity: particles.map(|n| self.velocity(n)).collect(),
+            wall: walls.map(|words| self.in_si(words, quantum)).collect(),
+        }
+    }
+
     /// The word of an arithmetic as a number of quanta.
     fn quanta(&self, word: i64) -> f64 {
         match self.arithmetic {
@@ -71,7 +85,10 @@ impl SavedState {
 
     fn vector(&self, field: usize, n: usize, quantum: f64) -> [f64; 3] {
         let d = self.dimension;
-        let words = &self.fields[field].1[n * d..(n + 1) * d];
+        self.in_si(&self.fields[field].1[n * d..(n + 1) * d], quantum)
+    }
+
+    fn in_si(&self, words: &[i64], quantum: f64) -> [f64; 3] {
         let mut out = [0.0; 3];
         for (o, w) in out.iter_mut().zip(words) {
             *o = self.quanta(*w) * quantum;

@@ -226,7 +226,7 @@ impl<const D: usize> Work for Listing<'_, D> {
             };
             let own_end = rows_of(self.strip).end;
             let mut windows = [const { 0..0 }; 5];
-            let mut candidates = own_end;
+            let mut candidates = own_end.saturating_sub(rows_of(self.strip).start);
             for (window, s) in windows[1..].iter_mut().zip(layout.forward::<D>(self.strip)) {
                 *window = rows_of(s);
                 candidates += window.len();

@@ -17,7 +17,7 @@ pub use row::Row;
 
 use crate::output::{Manifest, OutputError, RunDirectory, Snapshot, Status};
 use crate::player::{Arrow, Player};
-use crate::saved::{ArithmeticKind, SavedState};
+use crate::saved::ArithmeticKind;
 use crate::scene::{Scene, Source};
 use crate::setup;
 use crate::simulation::Options;
@@ -46,6 +46,16 @@ pub struct Progress<'a> {
     pub home: &'a Row,
 }
 
+/// Where the latest good state is.
+enum Good {
+    /// The player has it.
+    Home,
+    /// The latest snapshot in the directory.
+    Stored,
+    /// Here, for a run without a directory.
+    Kept(Box<Snapshot>),
+}
+
 /// A run under way.
 pub struct Run {
     player: Player,
@@ -54,7 +64,7 @@ pub struct Run {
     rows: Vec<Row>,
     turnaround_digest: Option<String>,
     /// The state that a run is taken back to when a step fails.
-    good: (SavedState, i64, Arrow),
+    good: Good,
     directory: Option<RunDirectory>,
     started: Instant,
     loop_time: Duration,
@@ -144,18 +154,18 @@ impl Run {
         run.check_rows(path)?;
         run.turnaround_digest = turnaround.map(|snapshot| snapshot.digest().to_string());
         run.directory = Some(RunDirectory::reopen(path, &run.rows)?);
+        run.good = Good::Stored;
         run.note_frames(step)?;
         Ok(run)
     }
 
-    fn new(mut player: Player, directory: Option<RunDirectory>, started: Instant) -> Self {
-        let good = (player.save(), player.position(), player.arrow());
+    fn new(player: Player, directory: Option<RunDirectory>, started: Instant) -> Self {
         Self {
             plan: Plan::of(player.scene()),
             scene_hash: scene_hash(player.scene()),
             rows: Vec::new(),
             turnaround_digest: None,
-            good,
+            good: Good::Home,
             directory,
             player,
             started,
@@ -289,33 +299,38 @@ impl Run {
             }
         }
         if due.snapshot {
-            self.keep_good();
-            if step == 0 {
-                self.write_snapshot("home")?;
+            // Let go of the one before first: it is as large as the state.
+            self.good = Good::Home;
+            let snapshot = self.snapshot();
+            if let Some(directory) = &self.directory {
+                if step == 0 {
+                    directory.write_snapshot("home", &snapshot)?;
+                }
+                directory.write_snapshot("latest", &snapshot)?;
             }
-            self.write_snapshot("latest")?;
+            self.good = match &self.directory {
+                _ if step == 0 => Good::Home,
+                Some(_) => Good::Stored,
+                None => Good::Kept(Box::new(snapshot)),
+            };
             self.write_manifest(Status::Running, None, None)?;
         }
         Ok(())
     }
 
-    fn keep_good(&mut self) {
-        self.good = (
-            self.player.save(),
-            self.player.position(),
-            self.player.arrow(),
-        );
-    }
-
-    fn write_snapshot(&mut self, name: &str) -> Result<Option<PathBuf>, RunError> {
-        let Some(directory) = &self.directory else {
-            return Ok(None);
-        };
-        let snapshot = Snapshot {
+    fn snapshot(&mut self) -> Snapshot {
+        Snapshot {
             scene: self.scene_hash,
             position: self.player.position(),
             arrow: self.player.arrow(),
             state: self.player.save(),
+        }
+    }
+
+    fn write_snapshot(&mut self, name: &str) -> Result<Option<PathBuf>, RunError> {
+        let snapshot = self.snapshot();
+        let Some(directory) = &self.directory else {
+            return Ok(None);
         };
         Ok(Some(directory.write_snapshot(name, &snapshot)?))
     }
@@ -364,8 +379,27 @@ impl Run {
     /// Leaves a snapshot of the last good state: the run is taken back to the latest kept state and
     /// from there to the step before the one that failed, which is the same steps as before.
     fn fail(&mut self, fault: Fault) -> Result<RunError, RunError> {
-        let (state, position, arrow) = &self.good;
-        self.player.restore(state, *position, *arrow)?;
+        let stored = match (&self.good, self.path()) {
+            (Good::Stored, Some(path)) => {
+                let path = RunDirectory::snapshot_path(path, "latest");
+                Some(Snapshot::read(&path).map_err(OutputError::from)?)
+            }
+            _ => None,
+        };
+        match (&self.good, &stored) {
+            (Good::Kept(good), _) => {
+                self.player
+                    .restore(&good.state, good.position, good.arrow)?;
+            }
+            (_, Some(good)) => {
+                self.player
+                    .restore(&good.state, good.position, good.arrow)?;
+            }
+            _ => {
+                let home = self.player.home().clone();
+                self.player.restore(&home, 0, Arrow::Forward)?;
+            }
+        }
         let good_step = fault.step.saturating_sub(1);
         while self.player.steps_taken() < good_step {
             if self.player.steps_taken() == self.plan.out && self.player.arrow() == Arrow::Forward {
