@@ -11,6 +11,8 @@
 //!    initial state.
 //! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
 //!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
+//! 5. What faces share: [`keys`], the one table of keys; [`track`], the ways out and back as they are
+//!    while a user goes to and fro.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
 //! every machine. Every thread owns the rows it draws, sums over particles are sums of integers or
@@ -25,12 +27,14 @@ pub mod draw;
 pub mod field;
 pub mod history;
 pub mod home;
+pub mod keys;
 pub mod picture;
 pub mod plot;
 pub mod png;
 pub mod raster;
 mod stamp;
 pub mod text;
+pub mod track;
 
 pub use camera::{Projection, View};
 pub use colour::{Colormap, Rgb, Theme};
@@ -39,5 +43,7 @@ pub use draw::{Look, Pane, draw};
 pub use field::field;
 pub use history::{History, Point};
 pub use home::Home;
+pub use keys::{Action, Key};
 pub use picture::Picture;
 pub use raster::{Raster, Rect};
+pub use track::Track;
