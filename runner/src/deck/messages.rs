@@ -86,6 +86,8 @@ pub struct Opened {
     pub digest: Digest,
     /// What turning round can promise.
     pub reversibility: Reversibility,
+    /// The smallest difference of two coordinates, m.
+    pub length_quantum: f64,
     /// Steps to the turnaround, or to the end of a one-way run.
     pub span: i64,
     /// Steps between rows.

@@ -125,6 +125,7 @@ impl Worker {
             first,
             digest: self.player.home_digest(),
             reversibility,
+            length_quantum: self.player.home().scale.length_quantum(),
             span,
             row_every: self.every,
             rows,
