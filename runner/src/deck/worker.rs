@@ -13,9 +13,10 @@ use crate::run::{Plan, Row, RunError};
 use crate::saved::{ArithmeticKind, SavedState};
 use loschmidt_core::{Fault, Reversibility};
 use std::ops::ControlFlow;
-use std::sync::Arc;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Steps are taken in pieces of about this many particle steps: some milliseconds.
@@ -25,9 +26,26 @@ type Tell = Box<dyn Fn(Report) + Send>;
 
 /// Plays until the face has gone.
 pub(super) fn work(opening: Opening, inbox: Receiver<Command>, ready: Arc<AtomicBool>, tell: Tell) {
-    match Worker::new(opening, ready, tell) {
-        Ok(mut worker) => worker.run(&inbox),
-        Err((error, tell)) => tell(Report::Failed(error.to_string())),
+    let tell: Arc<Mutex<Tell>> = Arc::new(Mutex::new(tell));
+    let ours = Arc::clone(&tell);
+    let say = move |report| {
+        if let Ok(tell) = ours.lock() {
+            tell(report);
+        }
+    };
+    // A defect must not leave a face that waits for ever.
+    let played = catch_unwind(AssertUnwindSafe(move || {
+        match Worker::new(opening, ready, Box::new(say)) {
+            Ok(mut worker) => worker.run(&inbox),
+            Err((error, say)) => say(Report::Failed(error.to_string())),
+        }
+    }));
+    if let Err(panic) = played {
+        let text = panic.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned()));
+        let why = format!("a defect of the program: {}", text.unwrap_or_default());
+        let tell = tell.lock().unwrap_or_else(PoisonError::into_inner);
+        tell(Report::Failed(why));
     }
 }
 
@@ -47,6 +65,8 @@ struct Worker {
     waypoints: Waypoints,
     astray: Option<usize>,
     meddling: Vec<Meddling>,
+    /// The farthest since it last was at the start, steps.
+    excursion: i64,
     /// The state that is gone back to when a step fails.
     good: (SavedState, i64, Arrow),
     keeper: Keeper,
@@ -84,6 +104,7 @@ impl Worker {
             waypoints: Waypoints::new(every, particles),
             astray: None,
             meddling: Vec::new(),
+            excursion: 0,
             keeper: Keeper::default(),
             pictured: None,
             changed: true,
@@ -118,6 +139,7 @@ impl Worker {
             }
         };
         self.keep_good();
+        self.excursion = self.player.farthest();
         let opened = Opened {
             scene: self.player.scene().clone(),
             options: *self.player.options(),
@@ -256,6 +278,7 @@ impl Worker {
     fn moved(&mut self, travel: Arrow) {
         self.changed = true;
         let position = self.player.position();
+        self.excursion = self.excursion.max(position);
         if position.rem_euclid(self.every) == 0 {
             self.measure(travel, true);
         }
@@ -309,7 +332,7 @@ impl Worker {
     /// At the start, coming from later.
     fn arrived(&mut self) {
         let comparison = self.player.compare_with_home();
-        let farthest = self.player.farthest();
+        let farthest = std::mem::take(&mut self.excursion);
         (self.tell)(Report::Arrived(Box::new(Arrival {
             comparison,
             farthest,
@@ -437,6 +460,8 @@ impl Worker {
             time: self.player.time(),
         };
         self.meddling.push(meddling);
+        // One particle at least is astray from now on, if any way is known.
+        self.astray = self.astray.map(|n| n.max(1));
         self.keep_good();
         self.stand();
         (self.tell)(Report::Meddled(meddling));

@@ -243,12 +243,9 @@ fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
         }
     }
     let action = keys::action(key);
-    if state.banner.take().is_some() && action != Some(Action::Quit) {
-        // The key was for the banner; those that look at the scene from elsewhere may go on at once.
-        let harmless = matches!(action, Some(Action::Turn | Action::Help | Action::Picture));
-        if !harmless {
-            return Vec::new();
-        }
+    if state.banner.take().is_some() && matches!(action, Some(Action::Play | Action::Cancel)) {
+        // These were for the banner; others close it and do what they always do.
+        return Vec::new();
     }
     action.map_or_else(Vec::new, |action| on_action(state, action))
 }

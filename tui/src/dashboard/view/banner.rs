@@ -9,8 +9,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
-/// Draws the banner over the field.
-pub fn render(arrival: &Arrival, field: Rect, buf: &mut Buffer, ink: &Ink) {
+/// Draws the banner over the field, or where that is too small over everything.
+pub fn render(arrival: &Arrival, field: Rect, whole: Rect, buf: &mut Buffer, ink: &Ink) {
     let exact = arrival.comparison.is_exact();
     let lines = if exact {
         returned(arrival, ink)
@@ -22,7 +22,9 @@ pub fn render(arrival: &Arrival, field: Rect, buf: &mut Buffer, ink: &Ink) {
     } else {
         ink.alarm_colour()
     };
-    sheet("", &lines, Some(colour), field, buf, ink);
+    let fits = field.width >= 66 && usize::from(field.height) > lines.len() + 2;
+    let area = if fits { field } else { whole };
+    sheet("", &lines, Some(colour), area, buf, ink);
 }
 
 fn digests(arrival: &Arrival, ink: &Ink) -> [Line; 2] {
@@ -66,12 +68,9 @@ fn missed(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
         Vec::new(),
         vec![
             (format!("{} particles", count(c.astray as u64)), ink.bold()),
-            (
-                " are not where they were, the farthest ".to_owned(),
-                ink.text(),
-            ),
+            (" astray, the farthest ".to_owned(), ink.text()),
             (format!("{} m", error(c.error)), ink.bold()),
-            (" off".to_owned(), ink.text()),
+            (" from home".to_owned(), ink.text()),
         ],
     ];
     for meddling in arrival.meddling.iter().rev().take(2).rev() {

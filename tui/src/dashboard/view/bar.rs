@@ -3,7 +3,7 @@
 use super::super::state::{Notice, Stage, Tone};
 use super::ink::Ink;
 use super::numbers::{count, short};
-use super::{Areas, Piece, write, write_right};
+use super::{Areas, Piece, width, write, write_right};
 use loschmidt_runner::Arrow;
 use loschmidt_viewer::Action;
 use ratatui::buffer::Buffer;
@@ -61,6 +61,7 @@ pub fn time(stage: &Stage, areas: &Areas, buf: &mut Buffer, ink: &Ink) {
 /// The line above the keys: a seek, a notice, or how many particles are astray.
 pub fn notice(stage: &Stage, notice: Option<&Notice>, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let mut pieces: Vec<Piece> = vec![(" ".to_owned(), ink.text())];
+    let astray = astray(stage, ink);
     if let Some(seek) = stage.status.seek {
         let way = (seek.target - seek.from).unsigned_abs().max(1);
         let done = (stage.status.position - seek.from).unsigned_abs();
@@ -79,13 +80,24 @@ pub fn notice(stage: &Stage, notice: Option<&Notice>, area: Rect, buf: &mut Buff
             Tone::Warning => ink.of_colour(ink.theme.backward),
             Tone::Refused => ink.alarm(),
         };
-        let room = usize::from(area.width.saturating_sub(2));
-        let text: String = notice.text.chars().take(room).collect();
-        pieces.push((text, style));
+        // What is astray comes first: a notice may be cut short.
+        let taken: u16 = astray.iter().map(|(text, _)| width(text)).sum();
+        let room = usize::from(area.width.saturating_sub(taken + 3));
+        pieces.push((shortened(&notice.text, room), style));
     }
     let end = write(buf, area, area.y, &pieces);
     let rest = Rect::new(end, area.y, area.right().saturating_sub(end), 1);
-    write_right(buf, rest, area.y, &astray(stage, ink));
+    write_right(buf, rest, area.y, &astray);
+}
+
+fn shortened(text: &str, room: usize) -> String {
+    if text.chars().count() <= room {
+        text.to_owned()
+    } else {
+        let mut text: String = text.chars().take(room.saturating_sub(1)).collect();
+        text.push('…');
+        text
+    }
 }
 
 /// On the way back: who is not on the way home.
@@ -95,7 +107,7 @@ fn astray(stage: &Stage, ink: &Ink) -> Vec<Piece> {
     let back = status.arrow == Arrow::Backward || status.seek.is_some();
     match status.astray {
         Some(0) if back => vec![(
-            format!("every particle on its way home  0 of {total} astray "),
+            format!("0 of {total} astray: every particle is on its way home "),
             ink.of_colour(ink.success_colour()),
         )],
         Some(n) if back => vec![
@@ -118,9 +130,9 @@ fn astray(stage: &Stage, ink: &Ink) -> Vec<Piece> {
 }
 
 /// The keys that one needs most, as many as there is room for.
-pub fn hints(area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn hints(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     const HINTS: [(&[Action], &str); 10] = [
-        (&[Action::Play], "pause"),
+        (&[Action::Play], ""),
         (&[Action::Turn], "reverse time"),
         (&[Action::StepBack, Action::StepOn], "step"),
         (&[Action::Slower, Action::Faster], "pace"),
@@ -131,12 +143,20 @@ pub fn hints(area: Rect, buf: &mut Buffer, ink: &Ink) {
         (&[Action::Help], "help"),
         (&[Action::Quit], "quit"),
     ];
+    let play = if stage.status.playing {
+        "pause"
+    } else {
+        "play"
+    };
     let mut rest = area;
     for (actions, words) in HINTS {
         let keys: Vec<String> = actions.iter().filter_map(|a| key_of(*a)).collect();
         let pieces = [
             (format!(" {}", keys.join(" ")), ink.bold()),
-            (format!(" {words} "), ink.faint()),
+            (
+                format!(" {} ", if words.is_empty() { play } else { words }),
+                ink.faint(),
+            ),
         ];
         let wide: u16 = pieces.iter().map(|(text, _)| super::width(text)).sum();
         if wide > rest.width {

@@ -44,8 +44,8 @@ impl Dots {
         self.ink[cell] = (colour, bold);
     }
 
-    /// Draws a line; where `dash` says so, with gaps.
-    pub fn line(&mut self, a: [f64; 2], b: [f64; 2], colour: Rgb, bold: bool) {
+    /// Draws a line; a dashed one has gaps, at the same places whatever its pieces.
+    pub fn line(&mut self, a: [f64; 2], b: [f64; 2], colour: Rgb, bold: bool, dashed: bool) {
         let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs()).ceil();
         if !steps.is_finite() || steps > 1e5 {
             return;
@@ -53,7 +53,9 @@ impl Dots {
         for n in 0..=steps as usize {
             let part = if steps > 0.0 { n as f64 / steps } else { 0.0 };
             let at = |k: usize| a[k] + part * (b[k] - a[k]);
-            self.dot(at(0), at(1), colour, bold);
+            if !dashed || (at(0) as i64).rem_euclid(6) < 3 {
+                self.dot(at(0), at(1), colour, bold);
+            }
         }
     }
 

@@ -144,6 +144,7 @@ fn draw(
         .map(|(colour, value)| Curve {
             colour: *colour,
             value,
+            back: None,
             reference: false,
         })
         .collect();

@@ -45,17 +45,20 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
 
     let curves = [
         Curve {
-            colour: ink.time_colour(),
+            colour: theme.forward,
+            back: Some(theme.backward),
             value: &|row: &Row| Some(row.entropy),
             reference: false,
         },
         Curve {
             colour: theme.second,
+            back: None,
             value: &|row: &Row| row.equilibrium_entropy_of_energy,
             reference: true,
         },
         Curve {
             colour: theme.third,
+            back: None,
             value: &|row: &Row| row.equilibrium_entropy_of_fit,
             reference: true,
         },

@@ -14,7 +14,6 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let scene = &stage.opened.scene;
     let options = &stage.opened.options;
     let status = &stage.status;
-    let sep = || (" · ".to_owned(), ink.rule());
     let mut pieces: Vec<Piece> = vec![
         (" LOSCHMIDT ".to_owned(), ink.badge(ink.time_colour())),
         (format!("  {}  ", scene.name), ink.bold()),
@@ -24,11 +23,10 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
         ),
     ];
     let float = status.arithmetic == ArithmeticKind::Float;
-    pieces.push(sep());
     pieces.push(if float {
-        ("floating point".to_owned(), ink.alarm())
+        (" · floating point".to_owned(), ink.alarm())
     } else {
-        ("fixed point".to_owned(), ink.faint())
+        (" · fixed point".to_owned(), ink.faint())
     });
     for text in [
         format!("spacing {} m", short(scene.particle_spacing)),
@@ -41,8 +39,7 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
             options.threads_at_work()
         ),
     ] {
-        pieces.push(sep());
-        pieces.push((text, ink.faint()));
+        pieces.push((format!(" · {text}"), ink.faint()));
     }
     let end = write(buf, area, area.y, &pieces);
     if area.right().saturating_sub(end) > 8 {
@@ -78,9 +75,9 @@ fn clock(stage: &Stage, columns: u16, ink: &Ink) -> Vec<Piece> {
     pieces.push((arrow, strong));
     pieces.push((format!("  {words}"), ink.time()));
     if !moving && columns >= 90 {
-        pieces.push(("   ⏸ paused".to_owned(), ink.text()));
+        pieces.push(("   ‖ paused".to_owned(), ink.text()));
     } else if !moving {
-        pieces.push((" ⏸".to_owned(), ink.text()));
+        pieces.push((" ‖".to_owned(), ink.text()));
     }
     pieces
 }

@@ -115,7 +115,7 @@ impl Widget for &State {
             too_small(area, buf, &ink);
         } else {
             match &self.stage {
-                Some(stage) => self.stage(stage, &areas, buf, &ink),
+                Some(stage) => self.stage(stage, &areas, area, buf, &ink),
                 None => self.waiting(area, buf, &ink),
             }
             match &self.overlay {
@@ -133,7 +133,7 @@ impl Widget for &State {
 }
 
 impl State {
-    fn stage(&self, stage: &Stage, areas: &Areas, buf: &mut Buffer, ink: &Ink) {
+    fn stage(&self, stage: &Stage, areas: &Areas, whole: Rect, buf: &mut Buffer, ink: &Ink) {
         header::render(stage, areas.header, buf, ink);
         field::render(stage, &self.look, self.depth, areas.field, buf, ink);
         field::legend(stage, &self.look, areas.legend, buf, ink);
@@ -142,9 +142,9 @@ impl State {
         speeds::render(stage, areas.speeds, buf, ink);
         bar::time(stage, areas, buf, ink);
         bar::notice(stage, self.notice.as_ref(), areas.notice, buf, ink);
-        bar::hints(areas.hints, buf, ink);
+        bar::hints(stage, areas.hints, buf, ink);
         if let Some(arrival) = &self.banner {
-            banner::render(arrival, areas.field, buf, ink);
+            banner::render(arrival, areas.field, whole, buf, ink);
         }
     }
 

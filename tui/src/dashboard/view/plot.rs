@@ -17,6 +17,8 @@ pub type Value<'a> = &'a dyn Fn(&Row) -> Option<f64>;
 pub struct Curve<'a> {
     pub colour: Rgb,
     pub value: Value<'a>,
+    /// Its colour on the way back, where that is another.
+    pub back: Option<Rgb>,
     /// Drawn with gaps: an equilibrium, not a state.
     pub reference: bool,
 }
@@ -52,7 +54,7 @@ impl Plot<'_> {
         let mut dots = Dots::new(axes.width, axes.height);
         let returning = !self.track.back().is_empty();
         for curve in self.curves.iter().rev() {
-            let out = if returning || curve.reference {
+            let out = if returning && !curve.reference {
                 ink.muted(curve.colour)
             } else {
                 curve.colour
@@ -61,7 +63,8 @@ impl Plot<'_> {
         }
         if returning {
             for curve in self.curves.iter().rev().filter(|c| !c.reference) {
-                self.curve(&mut dots, self.track.back(), curve, curve.colour, true);
+                let colour = curve.back.unwrap_or(curve.colour);
+                self.curve(&mut dots, self.track.back(), curve, colour, true);
             }
         }
         dots.render(axes, buf);
@@ -110,14 +113,7 @@ impl Plot<'_> {
                 [x, (1.0 - part) * (height - 1.0)]
             });
             match (last, here) {
-                _ if curve.reference => {
-                    if let Some([x, y]) = here
-                        && (x as i64) % 4 < 2
-                    {
-                        dots.dot(x, y, colour, bold);
-                    }
-                }
-                (Some(a), Some(b)) => dots.line(a, b, colour, bold),
+                (Some(a), Some(b)) => dots.line(a, b, colour, bold, curve.reference),
                 (None, Some([x, y])) if n + 1 == rows.len() => dots.dot(x, y, colour, bold),
                 _ => {}
             }

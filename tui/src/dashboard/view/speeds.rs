@@ -122,7 +122,7 @@ fn curve(
     let mut over = Vec::new();
     for x in 1..width as usize {
         let here = at(x as f64);
-        dots.line(last, here, ink.theme.third, true);
+        dots.line(last, here, ink.theme.third, true, false);
         let row = (here[1] / 4.0).max(0.0) as u16;
         over.push((axes.x + (x / 2) as u16, axes.y + row));
         last = here;

@@ -1,0 +1,150 @@
+//! The program on a terminal of its own: what it writes is shown, and what a user types is sent.
+
+use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+use std::io::{Read, Write};
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// A terminal with the program on it.
+pub struct Terminal {
+    master: Box<dyn MasterPty + Send>,
+    keys: Box<dyn Write + Send>,
+    child: Box<dyn Child + Send + Sync>,
+    parser: Arc<Mutex<vt100::Parser>>,
+    before: String,
+}
+
+/// The program with these arguments, on a terminal of so many columns and rows.
+pub fn start(
+    directory: &Path,
+    arguments: &[&str],
+    environment: &[(&str, &str)],
+    (cols, rows): (u16, u16),
+) -> Terminal {
+    let size = PtySize {
+        rows,
+        cols,
+        pixel_width: 0,
+        pixel_height: 0,
+    };
+    let pair = native_pty_system().openpty(size).expect("a terminal");
+    let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_loschmidt"));
+    command.args(arguments);
+    command.cwd(directory);
+    for name in ["NO_COLOR", "COLORTERM"] {
+        command.env_remove(name);
+    }
+    command.env("TERM", "xterm-256color");
+    for (name, value) in environment {
+        command.env(name, value);
+    }
+    let before = modes(&*pair.master);
+    let child = pair.slave.spawn_command(command).expect("the program");
+    drop(pair.slave);
+    let parser = Arc::new(Mutex::new(vt100::Parser::new(rows, cols, 0)));
+    let mut output = pair.master.try_clone_reader().expect("its output");
+    let shown = Arc::clone(&parser);
+    std::thread::spawn(move || {
+        let mut bytes = [0; 1 << 16];
+        while let Ok(n @ 1..) = output.read(&mut bytes) {
+            shown.lock().expect("a parser").process(&bytes[..n]);
+        }
+    });
+    Terminal {
+        keys: pair.master.take_writer().expect("its input"),
+        master: pair.master,
+        child,
+        parser,
+        before,
+    }
+}
+
+/// The modes of the line: whether it is cooked or raw.
+fn modes(master: &dyn MasterPty) -> String {
+    format!("{:?}", master.get_termios().expect("modes"))
+}
+
+impl Terminal {
+    /// What is on the screen.
+    pub fn text(&self) -> String {
+        self.parser.lock().expect("a parser").screen().contents()
+    }
+
+    /// Waits for words on the screen, a minute at most.
+    pub fn wait_for(&self, words: &str) {
+        let began = Instant::now();
+        while !self.text().contains(words) {
+            let late = began.elapsed() > Duration::from_secs(60);
+            assert!(!late, "no {words:?} on\n{}", self.text());
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    pub fn type_keys(&mut self, keys: &str) {
+        self.keys.write_all(keys.as_bytes()).expect("a key");
+        self.keys.flush().expect("a key");
+    }
+
+    pub fn resize(&mut self, cols: u16, rows: u16) {
+        let size = PtySize {
+            rows,
+            cols,
+            pixel_width: 0,
+            pixel_height: 0,
+        };
+        let mut parser = self.parser.lock().expect("a parser");
+        parser.screen_mut().set_size(rows, cols);
+        drop(parser);
+        self.master.resize(size).expect("a size");
+    }
+
+    /// Whether any cell has a colour.
+    pub fn is_coloured(&self) -> bool {
+        let parser = self.parser.lock().expect("a parser");
+        let screen = parser.screen();
+        let (rows, cols) = screen.size();
+        let plain = vt100::Color::Default;
+        (0..rows).any(|row| {
+            (0..cols).any(|col| {
+                let cell = screen.cell(row, col);
+                cell.is_some_and(|c| c.fgcolor() != plain || c.bgcolor() != plain)
+            })
+        })
+    }
+
+    pub fn signal(&self, name: &str) {
+        let id = self.child.process_id().expect("a process").to_string();
+        let sent = std::process::Command::new("kill")
+            .args([format!("-{name}"), id])
+            .status();
+        assert!(sent.expect("kill").success());
+    }
+
+    /// Waits for the end of the program: its exit code, and that the terminal is as it was.
+    pub fn ended_and_restored(&mut self) -> u32 {
+        let code = self.child.wait().expect("an end").exit_code();
+        // Its last words may still be on their way.
+        let began = Instant::now();
+        while self
+            .parser
+            .lock()
+            .expect("a parser")
+            .screen()
+            .alternate_screen()
+        {
+            let late = began.elapsed() > Duration::from_secs(10);
+            assert!(!late, "the alternate screen was not left");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(100));
+        let parser = self.parser.lock().expect("a parser");
+        let screen = parser.screen();
+        assert!(!screen.hide_cursor(), "the cursor is hidden");
+        let mouse = screen.mouse_protocol_mode();
+        assert_eq!(mouse, vt100::MouseProtocolMode::None);
+        drop(parser);
+        assert_eq!(modes(&*self.master), self.before);
+        code
+    }
+}
