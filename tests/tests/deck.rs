@@ -34,7 +34,10 @@ impl Watched {
 
     fn until<T>(&self, wanted: impl Fn(Report) -> Option<T>) -> T {
         loop {
-            let report = self.inbox.recv_timeout(Duration::from_secs(60)).expect("a report");
+            let report = self
+                .inbox
+                .recv_timeout(Duration::from_secs(60))
+                .expect("a report");
             if matches!(report, Report::Shot(_)) {
                 self.deck.ready();
             }
@@ -114,7 +117,11 @@ fn to_and_fro_leads_to_the_same_bits() {
 
 #[test]
 fn time_never_turns_by_itself_and_stops_at_the_start() {
-    let watched = Watched::open("dam-break", &["particle_spacing=0.1", "turnaround=0.01"], 1e3);
+    let watched = Watched::open(
+        "dam-break",
+        &["particle_spacing=0.1", "turnaround=0.01"],
+        1e3,
+    );
     // Far beyond the turnaround of the scene.
     watched.until(|report| match report {
         Report::Shot(shot) => {
@@ -169,7 +176,10 @@ fn a_flipped_bit_is_astray_at_once_and_the_start_is_missed() {
     watched.deck.send(Command::Seek(0));
     let mut astray = Vec::new();
     let arrival = loop {
-        let report = watched.inbox.recv_timeout(Duration::from_secs(60)).expect("a report");
+        let report = watched
+            .inbox
+            .recv_timeout(Duration::from_secs(60))
+            .expect("a report");
         match report {
             Report::Shot(shot) => {
                 watched.deck.ready();
@@ -267,7 +277,10 @@ fn what_was_kept_is_opened_where_it_was_left() {
         Report::Opened(opened) => Some(opened),
         _ => None,
     });
-    assert_eq!((opened.status.position, opened.status.arrow), (300, Arrow::Backward));
+    assert_eq!(
+        (opened.status.position, opened.status.arrow),
+        (300, Arrow::Backward)
+    );
     let other = place.path().join("other");
     assert_eq!(again.digest(&other).0, digest);
     again.deck.send(Command::Seek(0));

@@ -11,9 +11,15 @@ fn main() {}
 
 #[cfg(unix)]
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let arguments: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| !a.starts_with('-'))
+        .collect();
     let spacing = arguments.first().map_or("0.02", String::as_str);
-    let seconds = arguments.get(1).and_then(|s| s.parse().ok()).unwrap_or(10.0);
+    let seconds = arguments
+        .get(1)
+        .and_then(|s| s.parse().ok())
+        .unwrap_or(10.0);
     unix::compare(spacing, std::time::Duration::from_secs_f64(seconds));
 }
 
@@ -34,18 +40,30 @@ mod unix {
 
     pub fn compare(spacing: &str, time: Duration) {
         let spacing = format!("particle_spacing={spacing}");
-        println!("dam-break, {spacing}, {ROUNDS} rounds of {:.0} s", time.as_secs_f64());
-        println!("{:>12} {:>12} {:>8} {:>10}", "headless", "dashboard", "ratio", "frames/s");
+        println!(
+            "dam-break, {spacing}, {ROUNDS} rounds of {:.0} s",
+            time.as_secs_f64()
+        );
+        println!(
+            "{:>12} {:>12} {:>8} {:>10}",
+            "headless", "dashboard", "ratio", "frames/s"
+        );
         let mut ratios = Vec::new();
         for _ in 0..ROUNDS {
             let headless = headless(&spacing, time);
             let (watched, frames) = watched(&spacing, time);
             let ratio = watched / headless;
-            println!("{headless:>8.1} st/s {watched:>8.1} st/s {:>6.1} % {frames:>10.1}", 100.0 * ratio);
+            println!(
+                "{headless:>8.1} st/s {watched:>8.1} st/s {:>6.1} % {frames:>10.1}",
+                100.0 * ratio
+            );
             ratios.push(ratio);
         }
         ratios.sort_by(f64::total_cmp);
-        println!("median {:.1} % of the headless throughput", 100.0 * ratios[ROUNDS / 2]);
+        println!(
+            "median {:.1} % of the headless throughput",
+            100.0 * ratios[ROUNDS / 2]
+        );
     }
 
     /// Steps of a run, from its manifest.
@@ -58,7 +76,15 @@ mod unix {
     fn headless(spacing: &str, time: Duration) -> f64 {
         let place = tempfile::tempdir().expect("a directory");
         let mut child = Command::new(PROGRAM)
-            .args(["run", "dam-break", "--quiet", "--out", "run", "--set", spacing])
+            .args([
+                "run",
+                "dam-break",
+                "--quiet",
+                "--out",
+                "run",
+                "--set",
+                spacing,
+            ])
             .args(["--set", "output.frames=0"])
             .current_dir(&place)
             .stderr(Stdio::null())
@@ -103,7 +129,10 @@ mod unix {
         std::thread::spawn(move || {
             let mut bytes = vec![0; 1 << 18];
             while let Ok(n @ 1..) = output.read(&mut bytes) {
-                let found = bytes[..n].windows(FRAME.len()).filter(|w| *w == FRAME).count();
+                let found = bytes[..n]
+                    .windows(FRAME.len())
+                    .filter(|w| *w == FRAME)
+                    .count();
                 counted.fetch_add(found as u64, Ordering::Relaxed);
             }
         });
@@ -119,11 +148,16 @@ mod unix {
         let taken = began.elapsed();
         child.wait().expect("an end");
         let steps = steps(&place.path().join("runs/dam-break-1"));
-        (steps / taken.as_secs_f64(), drawn as f64 / taken.as_secs_f64())
+        (
+            steps / taken.as_secs_f64(),
+            drawn as f64 / taken.as_secs_f64(),
+        )
     }
 
     fn signal(id: u32) {
-        let sent = Command::new("kill").args(["-INT", &id.to_string()]).status();
+        let sent = Command::new("kill")
+            .args(["-INT", &id.to_string()])
+            .status();
         assert!(sent.expect("kill").success());
     }
 }

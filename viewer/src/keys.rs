@@ -187,7 +187,7 @@ pub const TABLE: &[Binding] = &[
     binding(
         "time",
         &[(K::PageUp, A::ScrubBack), (K::PageDown, A::ScrubOn)],
-        "go a twentieth of the bar back, on; or click on the bar",
+        "a twentieth of the bar back, on; or click it",
     ),
     binding(
         "time",
@@ -202,12 +202,12 @@ pub const TABLE: &[Binding] = &[
     binding(
         "experiments",
         &[(K::Char('f'), A::Switch)],
-        "go on in floating point, or again in fixed point",
+        "go on in floating point, or in fixed again",
     ),
     binding(
         "view",
         &[(K::Char('c'), A::Colour)],
-        "colour by speed, density, pressure, initial height, distance from home",
+        "let the colours say something else",
     ),
     binding("view", &[(K::Char('m'), A::Colormap)], "another colour map"),
     binding("view", &[(K::Char('t'), A::Theme)], "dark, light"),
@@ -218,7 +218,7 @@ pub const TABLE: &[Binding] = &[
             (K::Char('-'), A::ZoomOut),
             (K::Char('0'), A::ResetView),
         ],
-        "closer, farther, the whole scene; or the wheel",
+        "closer, farther, whole scene; or the wheel",
     ),
     binding(
         "view",
@@ -238,7 +238,7 @@ pub const TABLE: &[Binding] = &[
             (K::Char('K'), A::OrbitUp),
             (K::Char('L'), A::OrbitRight),
         ],
-        "in 3D, turn the view; or drag with the right button",
+        "in 3D, turn the view; or drag, right button",
     ),
     binding(
         "program",
@@ -248,7 +248,7 @@ pub const TABLE: &[Binding] = &[
     binding(
         "program",
         &[(K::Char('e'), A::Parameters)],
-        "edit spacing, sound speed, integrator, threads; start anew",
+        "edit the parameters and start anew",
     ),
     binding(
         "program",

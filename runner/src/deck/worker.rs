@@ -419,8 +419,12 @@ impl Worker {
     }
 
     fn turn(&mut self) {
-        if self.player.reversibility() == Reversibility::Irreversible {
-            let why = crate::player::PlayerError::Irreversible;
+        // Floating point may turn: to see it fail is an experiment. What has no way back may not.
+        let returns = matches!(
+            self.player.reversibility(),
+            Reversibility::BitExact | Reversibility::UpToRounding
+        );
+        if let (false, Err(why)) = (returns, self.player.can_seek()) {
             return (self.tell)(Report::Refused(why.into()));
         }
         self.seek = None;
@@ -450,6 +454,7 @@ impl Worker {
             });
         } else {
             self.pause();
+            (self.tell)(Report::SeekEnded(true));
         }
     }
 

@@ -71,8 +71,8 @@ pub enum Overlay {
     /// Nothing.
     #[default]
     None,
-    /// The keys.
-    Help,
+    /// The keys, from this line on where there is no room for all.
+    Help(usize),
     /// What can be opened, and which is chosen.
     Scenes { choices: Vec<Choice>, chosen: usize },
     /// The panel of parameters.

@@ -188,8 +188,12 @@ fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
     }
     match &mut state.overlay {
         Overlay::None => {}
-        Overlay::Help => {
-            state.overlay = Overlay::None;
+        Overlay::Help(first) => {
+            match key {
+                Key::Down | Key::PageDown => *first = (*first + 1).min(keys::TABLE.len() - 1),
+                Key::Up | Key::PageUp => *first = first.saturating_sub(1),
+                _ => state.overlay = Overlay::None,
+            }
             return match keys::action(key) {
                 Some(Action::Quit) => vec![Effect::Quit],
                 _ => Vec::new(),
@@ -263,7 +267,7 @@ fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
     match action {
         Action::Quit => return vec![Effect::Quit],
         Action::Help => {
-            state.overlay = Overlay::Help;
+            state.overlay = Overlay::Help(0);
             return Vec::new();
         }
         Action::Scenes => return vec![Effect::List],
@@ -291,7 +295,10 @@ fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
             vec![Effect::Deck(Command::Play(play))]
         }
         Action::Turn => {
-            stage.turning = stage.opened.reversibility != Reversibility::Irreversible;
+            stage.turning = matches!(
+                stage.opened.reversibility,
+                Reversibility::BitExact | Reversibility::UpToRounding
+            );
             let mut effects = vec![Effect::Deck(Command::Turn)];
             if !status.playing && status.at_start {
                 // At the start there is one thing that one can want: to see it again.

@@ -116,7 +116,7 @@ fn help() {
     bench.seek(300);
     bench.key(Key::Char('?'));
     neutral(&mut bench);
-    assert_eq!(bench.state.overlay, Overlay::Help);
+    assert_eq!(bench.state.overlay, Overlay::Help(0));
     assert_screens("help", &mut bench.state);
 }
 

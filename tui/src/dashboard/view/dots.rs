@@ -46,6 +46,12 @@ impl Dots {
 
     /// Draws a line; a dashed one has gaps, at the same places whatever its pieces.
     pub fn line(&mut self, a: [f64; 2], b: [f64; 2], colour: Rgb, bold: bool, dashed: bool) {
+        // The same dots in both directions: the way back must fall on the way out.
+        let (a, b) = if (b[0], b[1]) < (a[0], a[1]) {
+            (b, a)
+        } else {
+            (a, b)
+        };
         let steps = (b[0] - a[0]).abs().max((b[1] - a[1]).abs()).ceil();
         if !steps.is_finite() || steps > 1e5 {
             return;

@@ -120,7 +120,7 @@ impl Widget for &State {
             }
             match &self.overlay {
                 Overlay::None => {}
-                Overlay::Help => overlays::help(area, buf, &ink),
+                Overlay::Help(first) => overlays::help(*first, area, buf, &ink),
                 Overlay::Scenes { choices, chosen } => {
                     overlays::scenes(choices, *chosen, area, buf, &ink);
                 }

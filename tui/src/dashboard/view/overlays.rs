@@ -62,7 +62,7 @@ pub fn sheet(
 }
 
 /// The table of keys.
-pub fn help(area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn help(first: usize, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let table = keys::TABLE;
     let column = table.iter().map(|b| width(&b.names())).max().unwrap_or(0);
     let spaced = usize::from(area.height) >= table.len() + 9;
@@ -91,7 +91,16 @@ pub fn help(area: Rect, buf: &mut Buffer, ink: &Ink) {
         line.push((binding.meaning.to_owned(), ink.faint()));
         lines.push(line);
     }
-    sheet("keys", &lines, None, area, buf, ink);
+    let room = usize::from(area.height.saturating_sub(2));
+    let title = if lines.len() > room {
+        // As far down as there are lines.
+        let first = first.min(lines.len() - room);
+        lines.drain(..first);
+        "keys   ↑ ↓ for the others"
+    } else {
+        "keys"
+    };
+    sheet(title, &lines, None, area, buf, ink);
 }
 
 /// What can be opened.
