@@ -82,6 +82,23 @@ impl Executor for Rayon {
         };
         self.pool.install(run).map_or(Ok(()), Err)
     }
+
+    fn for_both<T: Send, U: Send>(
+        &self,
+        a: &mut [T],
+        b: &mut [U],
+        f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
+    ) -> Result<(), Fault> {
+        let run = || {
+            a.par_iter_mut()
+                .zip(b)
+                .with_min_len(GRAIN)
+                .enumerate()
+                .filter_map(|(i, (a, b))| f(i, a, b).err())
+                .reduce_with(Fault::first)
+        };
+        self.pool.install(run).map_or(Ok(()), Err)
+    }
 }
 
 /// The core's `gather` with the branches taken out of the search.
@@ -109,7 +126,8 @@ where
         for &j in list {
             let (x_ij, r2) = separation::<A, D>(x_i, &from.position[j as usize]);
             let read_j = read(&from.read[j as usize]);
-            if !accumulate(sum, pass.term(&x_ij, r2, &read_i, &read_j)) {
+            let argument = pass.argument(r2);
+            if !accumulate(sum, pass.term(&x_ij, argument, &read_i, &read_j)) {
                 result = Err(FaultKind::TermRange);
             }
         }

@@ -3,6 +3,7 @@
 #[cfg(unix)]
 mod cli_dashboard;
 mod cli_interrupt;
+mod cli_movie;
 mod cli_result;
 mod cli_resume;
 mod cli_usage;

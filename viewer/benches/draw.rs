@@ -9,8 +9,8 @@ fn main() {
 }
 
 /// The scene at home and after some steps.
-fn dam(spacing: &str, steps: u64) -> (Frame, Home, History) {
-    let source = resolve("dam-break").expect("a scene of the catalogue");
+fn dam(name: &str, spacing: &str, steps: u64) -> (Frame, Home, History) {
+    let source = resolve(name).expect("a scene of the catalogue");
     let scene = load(&source, &[format!("particle_spacing={spacing}")]).expect("a scene");
     let initial = scene.initial_state().expect("particles");
     let mut player = Player::new(scene.clone(), initial, Options::default()).expect("a player");
@@ -27,7 +27,7 @@ fn dam(spacing: &str, steps: u64) -> (Frame, Home, History) {
 /// The whole picture, by its width in pixels.
 #[divan::bench(args = [640, 1280, 3840])]
 fn picture(bencher: divan::Bencher<'_, '_>, width: usize) {
-    let (frame, home, history) = dam("0.005", 20);
+    let (frame, home, history) = dam("dam-break", "0.005", 20);
     let look = Look::default();
     bencher.bench(|| {
         let panes = [Pane::new(&frame, &history)];
@@ -38,10 +38,21 @@ fn picture(bencher: divan::Bencher<'_, '_>, width: usize) {
 /// The particles alone, coloured by what takes longest.
 #[divan::bench]
 fn particles(bencher: divan::Bencher<'_, '_>) {
-    let (frame, home, _) = dam("0.005", 20);
+    let (frame, home, _) = dam("dam-break", "0.005", 20);
     let look = Look {
         colouring: Colouring::Displacement,
         ..Look::default()
     };
     bencher.bench(|| field(&frame, &home, &look, 1280, 720));
+}
+
+/// The dam break in space, 16,000 balls.
+#[divan::bench(args = [640, 1280, 3840])]
+fn space(bencher: divan::Bencher<'_, '_>, width: usize) {
+    let (frame, home, history) = dam("dam-break-3d", "0.025", 20);
+    let look = Look::default();
+    bencher.bench(|| {
+        let panes = [Pane::new(&frame, &history)];
+        draw(&panes, &home, &look, width, width * 9 / 16)
+    });
 }

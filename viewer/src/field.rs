@@ -409,26 +409,55 @@ fn flat_band(canvas: &mut Canvas<'_>, order: &[u32], discs: &[Disc], stamps: &[S
     }
 }
 
-/// Balls, one over the other.
+/// Balls, one over the other, from the nearest to the farthest: a ball behind others costs
+/// a look at the pixels that they have covered.
 fn deep_band(canvas: &mut Canvas<'_>, order: &[u32], discs: &[Disc], stamps: &[Stamp]) {
-    for &n in order {
+    /// Bits of a channel in a sum; a sum of weights is at most 255, one of colours 255².
+    const LANE: u32 = 21;
+    let canvas_width = canvas.width;
+    // How much of a pixel is still to be seen through, of 255, and the colours before that.
+    let mut clear = vec![255u8; canvas_width * canvas.height];
+    let mut sums = vec![0u64; clear.len()];
+    for &n in order.iter().rev() {
         let disc = &discs[n as usize];
         let stamp = &stamps[usize::from(disc.stamp)];
         let meeting = canvas.meet(disc, stamp);
         let width = meeting.columns.len();
         let from = meeting.stamp_column;
-        for (k, row) in meeting.rows.clone().enumerate() {
+        for (k, row) in meeting.rows.enumerate() {
             let row_of_stamp = meeting.stamp_row + k;
             let coverage = &stamp.coverage(disc.x, disc.y, row_of_stamp)[from..from + width];
             let shade = &stamp.shade(disc.x, disc.y, row_of_stamp)[from..from + width];
-            let pixels = &mut canvas.row(row)[meeting.columns.clone()];
-            for ((pixel, &c), &shade) in pixels.iter_mut().zip(coverage).zip(shade) {
-                if c == 0 {
+            let start = row * canvas_width + meeting.columns.start;
+            let pixels = clear[start..start + width]
+                .iter_mut()
+                .zip(&mut sums[start..start + width]);
+            for (((clear, sum), &c), &shade) in pixels.zip(coverage).zip(shade) {
+                if c == 0 || *clear == 0 {
                     continue;
                 }
-                let alpha = (u32::from(c) * u32::from(disc.weight) + 127) / 255;
-                let lit = Rgb(0).mix(disc.colour, shade);
-                *pixel = Rgb(*pixel).mix(lit, alpha as u8).0;
+                let share = |part: u32, of: u32| (part * of + 127) / 255;
+                let alpha = share(u32::from(c), u32::from(disc.weight));
+                let weight = share(alpha, u32::from(*clear));
+                let [r, g, b] = Rgb(0).mix(disc.colour, shade).channels().map(u64::from);
+                *sum += (r << (2 * LANE) | g << LANE | b) * u64::from(weight);
+                *clear -= weight as u8;
+            }
+        }
+    }
+    for (row, (clear, sums)) in clear
+        .chunks(canvas_width)
+        .zip(sums.chunks(canvas_width))
+        .enumerate()
+    {
+        for ((pixel, &clear), sum) in canvas.row(row).iter_mut().zip(clear).zip(sums) {
+            if clear < 255 {
+                let ground = Rgb(*pixel).channels();
+                let channel = |c: usize| {
+                    let before = (sum >> (LANE * (2 - c as u32))) as u32 & ((1 << LANE) - 1);
+                    (before + u32::from(ground[c]) * u32::from(clear) + 127) / 255
+                };
+                *pixel = Rgb::of([0, 1, 2].map(|c| channel(c) as u8)).0;
             }
         }
     }

@@ -96,6 +96,7 @@ impl Home {
             Dimension::Three => 3,
         };
         let spacing = scene.particle_spacing;
+        let span = scene.steps_out() as f64 * scene.time_step();
         let nothing = Box3 {
             low: [0.0; 3],
             high: [0.0; 3],
@@ -106,7 +107,7 @@ impl Home {
             Box3::around(frame.wall_position.iter()).map(|b| b.grown(0.5 * spacing, dimension));
         let shown = match walls {
             Some(walls) => walls.joined(fluid),
-            None => without_walls(fluid, dimension),
+            None => fluid.grown(free_flight(frame, fluid, span), dimension),
         };
         let gravity = scene.gravity.uniform;
         let up = (0..3)
@@ -114,12 +115,7 @@ impl Home {
             .max_by(|&a, &b| gravity[a].abs().total_cmp(&gravity[b].abs()))
             .unwrap_or(1);
         let fall = 2.0 * gravity[up].abs() * fluid.size()[up];
-        let fastest = frame
-            .velocity
-            .iter()
-            .map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
-            .fold(0.0, f64::max);
-        let speed = fall.max(4.0 * fastest).sqrt();
+        let speed = fall.sqrt().max(2.0 * fastest(frame));
         Self {
             name: scene.name.clone(),
             dimension,
@@ -136,19 +132,23 @@ impl Home {
             fluid,
             shown,
             walls,
-            span: scene.steps_out() as f64 * scene.time_step(),
+            span,
         }
     }
 }
 
-/// Without walls fluid flies in all directions: room for half of its size again on every side.
-fn without_walls(fluid: Box3, dimension: usize) -> Box3 {
+/// Without walls the view has room on every side for half of what the fastest particle could fly
+/// until the turnaround, and for a quarter of the fluid at least, m.
+fn free_flight(frame: &Frame, fluid: Box3, span: f64) -> f64 {
     let largest = fluid.size().into_iter().fold(0.0, f64::max);
-    let half = [0.9, 0.75, 0.75].map(|x| x * largest);
-    let centre = fluid.centre();
-    let room = Box3 {
-        low: std::array::from_fn(|k| centre[k] - if k < dimension { half[k] } else { 0.0 }),
-        high: std::array::from_fn(|k| centre[k] + if k < dimension { half[k] } else { 0.0 }),
-    };
-    room.joined(fluid)
+    (0.5 * fastest(frame) * span).clamp(0.25 * largest, 2.0 * largest)
+}
+
+/// The largest speed, m/s.
+fn fastest(frame: &Frame) -> f64 {
+    let squares = frame
+        .velocity
+        .iter()
+        .map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    squares.fold(0.0, f64::max).sqrt()
 }

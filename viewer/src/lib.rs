@@ -11,7 +11,8 @@
 //!    initial state.
 //! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
 //!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
-//! 5. What faces share: [`keys`], the one table of keys; [`track`], the ways out and back as they are
+//! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
+//! 6. What faces share: [`keys`], the one table of keys; [`track`], the ways out and back as they are
 //!    while a user goes to and fro.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
@@ -28,6 +29,7 @@ pub mod field;
 pub mod history;
 pub mod home;
 pub mod keys;
+pub mod movie;
 pub mod picture;
 pub mod plot;
 pub mod png;

@@ -31,10 +31,20 @@ pub struct Plot<'a> {
     pub curves: &'a [Curve<'a>],
     /// The numbers at the bottom and the top.
     pub range: [f64; 2],
-    /// A number within the range that a faint line marks, and its text.
-    pub mark: Option<(f64, String)>,
+    /// A number within the range that a faint line marks.
+    pub mark: Option<Mark>,
     /// The largest time, s.
     pub span: f64,
+}
+
+/// A number that a faint line marks.
+pub struct Mark {
+    /// The number.
+    pub value: f64,
+    /// Its text.
+    pub text: String,
+    /// Whether the text stands at the left end of the line, or at the right one.
+    pub left: bool,
 }
 
 impl Plot<'_> {
@@ -80,20 +90,25 @@ impl Plot<'_> {
         }
     }
 
-    /// The line at the marked number, its text at the right end.
+    /// The line at the marked number, its text at one end.
     fn mark(&self, raster: &mut Raster, axes: Rect, theme: &Theme, style: &Style) {
-        let Some((value, text)) = &self.mark else {
+        let Some(mark) = &self.mark else {
             return;
         };
         let [low, high] = self.range;
-        let part = (value - low) / (high - low).max(f64::MIN_POSITIVE);
+        let part = (mark.value - low) / (high - low).max(f64::MIN_POSITIVE);
         let y = axes.y + ((1.0 - part.clamp(0.0, 1.0)) * axes.height as f64) as usize;
-        let right = (axes.x + axes.width) as f64;
-        let width = text::width(style, text) as usize + style.size / 2;
-        let line = Rect::new(axes.x, y, axes.width.saturating_sub(width), 1);
+        let text = text::width(style, &mark.text);
+        let used = (text as usize + style.size / 2).min(axes.width);
+        let start = if mark.left { axes.x + used } else { axes.x };
+        let line = Rect::new(start, y, axes.width - used, 1);
         raster.fill(line, theme.rule, 160);
-        let baseline = (y + style.size / 3) as i64;
-        text::write_left_of(raster, style, right, baseline, text);
+        let x = if mark.left {
+            axes.x as f64
+        } else {
+            (axes.x + axes.width) as f64 - text
+        };
+        text::write(raster, style, x, (y + style.size / 3) as i64, &mark.text);
     }
 
     /// The title and, where there is room, the names of the curves in their colours.
@@ -228,7 +243,12 @@ pub fn energy(raster: &mut Raster, rect: Rect, history: &History, theme: &Theme,
         unit: "",
         curves: &curves,
         range: [lowest, largest + margin],
-        mark: Some((half, joules(half))),
+        // At the left the curves are far from the middle.
+        mark: Some(Mark {
+            value: half,
+            text: joules(half),
+            left: true,
+        }),
         span: history.span(),
     }
     .draw(raster, rect, theme, em);
@@ -282,7 +302,11 @@ pub fn entropy(
         unit: "",
         curves: &curves,
         range: [low, high],
-        mark: (low < 0.0 && high > 0.0).then(|| (0.0, "0".to_owned())),
+        mark: (low < 0.0 && high > 0.0).then(|| Mark {
+            value: 0.0,
+            text: "0".to_owned(),
+            left: false,
+        }),
         span: first.span(),
     }
     .draw(raster, rect, theme, em);

@@ -9,6 +9,9 @@ use thiserror::Error;
 /// Why a picture could not be read.
 #[derive(Debug, Error)]
 pub enum ReadError {
+    /// The file cannot be opened.
+    #[error(transparent)]
+    Io(#[from] std::io::Error),
     /// Not a PNG file, or a damaged one.
     #[error(transparent)]
     Decoding(#[from] png::DecodingError),

@@ -189,28 +189,37 @@ impl Mask {
         let reach = radius + 1.0;
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let squared = dx * dx + dy * dy;
-        self.shape(
-            [a[0].min(b[0]) - reach, a[1].min(b[1]) - reach],
-            [a[0].max(b[0]) + reach, a[1].max(b[1]) + reach],
-            |x, y| {
-                let (px, py) = (x - a[0], y - a[1]);
-                let t = if squared > 0.0 {
-                    ((px * dx + py * dy) / squared).clamp(0.0, 1.0)
-                } else {
-                    0.0
-                };
-                let (ex, ey) = (px - t * dx, py - t * dy);
-                radius + 0.5 - (ex * ex + ey * ey).sqrt()
-            },
-        );
+        // Of a row, only the columns near the part of the line that is near the row.
+        let columns = |y: f64| {
+            let part = |y: f64| ((y - a[1]) / dy).clamp(0.0, 1.0);
+            let [p, q] = if dy.abs() > 1e-9 {
+                [part(y - reach), part(y + reach)]
+            } else {
+                [0.0, 1.0]
+            };
+            let [p, q] = [a[0] + p * dx, a[0] + q * dx];
+            [p.min(q) - reach, p.max(q) + reach]
+        };
+        let rows = [a[1].min(b[1]) - reach, a[1].max(b[1]) + reach];
+        self.shape(rows, columns, |x, y| {
+            let (px, py) = (x - a[0], y - a[1]);
+            let t = if squared > 0.0 {
+                ((px * dx + py * dy) / squared).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            let (ex, ey) = (px - t * dx, py - t * dy);
+            radius + 0.5 - (ex * ex + ey * ey).sqrt()
+        });
     }
 
     /// Adds a ring: the circle of this radius around `centre`, `width` pixels wide.
     pub fn ring(&mut self, centre: [f64; 2], radius: f64, width: f64) {
         let reach = radius + 0.5 * width + 1.0;
+        let around = |c: f64| [c - reach, c + reach];
         self.shape(
-            [centre[0] - reach, centre[1] - reach],
-            [centre[0] + reach, centre[1] + reach],
+            around(centre[1]),
+            |_| around(centre[0]),
             |x, y| {
                 let (dx, dy) = (x - centre[0], y - centre[1]);
                 0.5 * width + 0.5 - ((dx * dx + dy * dy).sqrt() - radius).abs()
@@ -229,24 +238,33 @@ impl Mask {
             let length = (dx * dx + dy * dy).sqrt().max(1e-9);
             sense * (dx * (y - p[1]) - dy * (x - p[0])) / length
         };
-        let low = |k: usize| a[k].min(b[k]).min(c[k]) - 1.0;
-        let high = |k: usize| a[k].max(b[k]).max(c[k]) + 1.0;
-        self.shape([low(0), low(1)], [high(0), high(1)], |x, y| {
-            0.5 + edge(a, b, x, y).min(edge(b, c, x, y)).min(edge(c, a, x, y))
-        });
+        let range = |k: usize| {
+            let (low, high) = (a[k].min(b[k]).min(c[k]), a[k].max(b[k]).max(c[k]));
+            [low - 1.0, high + 1.0]
+        };
+        self.shape(
+            range(1),
+            |_| range(0),
+            |x, y| 0.5 + edge(a, b, x, y).min(edge(b, c, x, y)).min(edge(c, a, x, y)),
+        );
     }
 
-    /// Adds a shape: `inside` is its coverage at the middle of a pixel, below 0 outside.
-    fn shape(&mut self, low: [f64; 2], high: [f64; 2], inside: impl Fn(f64, f64) -> f64) {
-        let range = |low: f64, high: f64, start: usize, size: usize| {
+    /// Adds a shape between two rows. Of the row at `y` it lies within `columns(y)`, and `inside`
+    /// is its coverage at the middle of a pixel, below 0 outside.
+    fn shape(
+        &mut self,
+        rows: [f64; 2],
+        columns: impl Fn(f64) -> [f64; 2],
+        inside: impl Fn(f64, f64) -> f64,
+    ) {
+        let range = |[low, high]: [f64; 2], start: usize, size: usize| {
             let from = (low - start as f64).floor().clamp(0.0, size as f64) as usize;
             let to = (high - start as f64).ceil().clamp(0.0, size as f64) as usize;
             from..to
         };
-        let columns = range(low[0], high[0], self.rect.x, self.rect.width);
-        for row in range(low[1], high[1], self.rect.y, self.rect.height) {
+        for row in range(rows, self.rect.y, self.rect.height) {
             let y = (self.rect.y + row) as f64 + 0.5;
-            for column in columns.clone() {
+            for column in range(columns(y), self.rect.x, self.rect.width) {
                 let x = (self.rect.x + column) as f64 + 0.5;
                 let coverage = (inside(x, y).clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
                 let pixel = &mut self.coverage[row * self.rect.width + column];

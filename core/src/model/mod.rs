@@ -14,7 +14,6 @@ mod state_equation;
 mod symplectic;
 
 pub use forces::Forces;
-pub(crate) use forces::nothing;
 pub use parameters::{Central, DensityCorrection, Gravity, Parameters, SetupError, Wall};
 pub use passes::{ContinuityPass, DensityPass, PressurePass, WallEnergyPass, WallPass};
 pub use standard::Standard;

@@ -20,6 +20,20 @@ pub struct Symplectic<A: Arithmetic, const D: usize> {
 }
 
 impl<A: Arithmetic, const D: usize> Symplectic<A, D> {
+    /// Densities for a kick of `c` time steps, and where it can be had in one go its impulses.
+    fn update_for_kick<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        c: f64,
+    ) -> Result<(), Fault> {
+        if system.progress.density_current || self.forces.has_dummies(system) {
+            return self.update_density(system, exec);
+        }
+        self.forces.sort(system, exec);
+        self.forces.densities_and_impulses(system, exec, c)
+    }
+
     fn update_wall_density<E: Executor>(
         &self,
         system: &mut System<'_, A, D>,
@@ -133,14 +147,25 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
             return Err(Fault::new(FaultKind::NotInitialised, 0).at_step(step));
         }
         let mut stages = || {
-            for stage in self.forces.parameters().integrator.stages {
-                match *stage {
-                    Stage::Kick(c) => {
-                        self.update_density(system, exec)?;
-                        self.forces.kick(system, exec, c)?;
+            let mut stages = self.forces.parameters().integrator.stages;
+            loop {
+                stages = match *stages {
+                    [Stage::Kick(kick), Stage::Drift(drift), ref rest @ ..] => {
+                        self.update_for_kick(system, exec, kick)?;
+                        self.forces.kick_and_drift(system, exec, kick, drift)?;
+                        rest
                     }
-                    Stage::Drift(c) => self.forces.drift(system, exec, c)?,
-                }
+                    [Stage::Kick(kick), ref rest @ ..] => {
+                        self.update_for_kick(system, exec, kick)?;
+                        self.forces.kick(system, exec, kick)?;
+                        rest
+                    }
+                    [Stage::Drift(drift), ref rest @ ..] => {
+                        self.forces.drift(system, exec, drift)?;
+                        rest
+                    }
+                    [] => break,
+                };
             }
             Ok(())
         };

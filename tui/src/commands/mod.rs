@@ -1,6 +1,7 @@
 //! The commands.
 
 mod check;
+mod movie;
 mod run;
 mod scenes;
 mod tui;
@@ -21,6 +22,7 @@ pub fn execute(arguments: Arguments) -> Result<ExitCode, Failure> {
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Tui(arguments)) => tui::tui(&arguments),
         Some(Command::Resume(arguments)) => run::resume(&arguments),
+        Some(Command::Movie(arguments)) => movie::movie(&arguments),
         Some(Command::Scenes(arguments)) => scenes::scenes(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Digest { snapshot }) => {

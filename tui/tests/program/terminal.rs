@@ -2,6 +2,7 @@
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 use std::io::{Read, Write};
+use std::num::NonZeroU16;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -42,7 +43,7 @@ pub fn start(
     let before = modes(&*pair.master);
     let child = pair.slave.spawn_command(command).expect("the program");
     drop(pair.slave);
-    let parser = Arc::new(Mutex::new(vt100::Parser::new(rows, cols, 0)));
+    let parser = Arc::new(Mutex::new(vt100::Parser::new(cells(rows), cells(cols), 0)));
     let mut output = pair.master.try_clone_reader().expect("its output");
     let shown = Arc::clone(&parser);
     std::thread::spawn(move || {
@@ -58,6 +59,10 @@ pub fn start(
         parser,
         before,
     }
+}
+
+fn cells(n: u16) -> NonZeroU16 {
+    NonZeroU16::new(n).expect("a cell at least")
 }
 
 /// The modes of the line: whether it is cooked or raw.
@@ -94,7 +99,7 @@ impl Terminal {
             pixel_height: 0,
         };
         let mut parser = self.parser.lock().expect("a parser");
-        parser.screen_mut().set_size(rows, cols);
+        parser.screen_mut().set_size(cells(rows), cells(cols));
         drop(parser);
         self.master.resize(size).expect("a size");
     }
@@ -105,8 +110,8 @@ impl Terminal {
         let screen = parser.screen();
         let (rows, cols) = screen.size();
         let plain = vt100::Color::Default;
-        (0..rows).any(|row| {
-            (0..cols).any(|col| {
+        (0..rows.get()).any(|row| {
+            (0..cols.get()).any(|col| {
                 let cell = screen.cell(row, col);
                 cell.is_some_and(|c| c.fgcolor() != plain || c.bgcolor() != plain)
             })

@@ -22,15 +22,18 @@ impl Rgb {
         Self(u32::from_be_bytes([0, r, g, b]))
     }
 
-    /// This colour, and the other one with a weight of `alpha` / 255.
+    /// This colour, and the other one with a weight of `alpha` / 255, rounded to the nearest.
     #[must_use]
     pub fn mix(self, other: Self, alpha: u8) -> Self {
-        let (a, b) = (self.channels(), other.channels());
-        let weight = u32::from(alpha);
-        Self::of(std::array::from_fn(|c| {
-            let sum = u32::from(a[c]) * (255 - weight) + u32::from(b[c]) * weight;
-            ((sum + 127) / 255) as u8
-        }))
+        let (new, old) = (u32::from(alpha), 255 - u32::from(alpha));
+        // Red and blue share a word. With s = x + 128, (s + s/256)/256 is x/255 to the nearest
+        // for every x up to 255², and stays within its 16 bits.
+        const TWO: u32 = 0xff_00ff;
+        let s = (self.0 & TWO) * old + (other.0 & TWO) * new + 0x80_0080;
+        let red_blue = ((s + (s >> 8 & TWO)) >> 8) & TWO;
+        let s = (self.0 >> 8 & 255) * old + (other.0 >> 8 & 255) * new + 128;
+        let green = (s + (s >> 8)) >> 8;
+        Self(red_blue | green << 8)
     }
 }
 
@@ -150,5 +153,25 @@ impl Theme {
 impl Default for Theme {
     fn default() -> Self {
         Self::DARK
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Rgb;
+
+    #[test]
+    fn mixing_rounds_every_channel_to_the_nearest() {
+        for old in (0..=255u32).step_by(5) {
+            for new in 0..=255u32 {
+                for alpha in 0..=255u32 {
+                    let expected = (old * (255 - alpha) + new * alpha + 127) / 255;
+                    let channels = |c: u32, d: u32| Rgb(c << 16 | d << 8 | c);
+                    let mixed = channels(old, new).mix(channels(new, old), alpha as u8);
+                    let reverse = (new * (255 - alpha) + old * alpha + 127) / 255;
+                    assert_eq!(mixed, channels(expected, reverse), "{old} {new} {alpha}");
+                }
+            }
+        }
     }
 }
