@@ -370,7 +370,10 @@ impl Worker {
         match command {
             Command::Play(play) => self.play(play),
             Command::Turn => self.turn(),
-            Command::StepBy(steps) => self.seek_to(self.player.position() + steps),
+            Command::StepBy(steps) => {
+                let under_way = self.seek.map(|seek| seek.target);
+                self.seek_to(under_way.unwrap_or(self.player.position()) + steps);
+            }
             Command::Seek(target) => self.seek_to(target),
             Command::Cancel => {
                 if self.seek.take().is_some() {
@@ -436,7 +439,7 @@ impl Worker {
 
     fn seek_to(&mut self, target: i64) {
         let position = self.player.position();
-        if target < 0 && position == 0 {
+        if target < 0 && position == 0 && self.seek.is_none() {
             return (self.tell)(Report::Refused(Refusal::Start));
         }
         let target = target.max(0);
