@@ -35,9 +35,15 @@ pub(super) fn work(opening: Opening, inbox: Receiver<Command>, ready: Arc<Atomic
     };
     // A defect must not leave a face that waits for ever.
     let played = catch_unwind(AssertUnwindSafe(move || {
-        match Worker::new(opening, ready, Box::new(say)) {
-            Ok(mut worker) => worker.run(&inbox),
-            Err((error, say)) => say(Report::Failed(error.to_string())),
+        let (pace, arithmetic) = (opening.pace, opening.options.arithmetic);
+        let (player, recorded) = match opening.player() {
+            Ok(opened) => opened,
+            Err(error) => return say(Report::Failed(error.to_string())),
+        };
+        let mut worker = Worker::new(player, pace, ready, Box::new(say));
+        match worker.begin(recorded, arithmetic) {
+            Ok(()) => worker.run(&inbox),
+            Err(error) => (worker.tell)(Report::Failed(error.to_string())),
         }
     }));
     if let Err(panic) = played {
@@ -58,6 +64,8 @@ struct Worker {
     pace: f64,
     playing: bool,
     seek: Option<Seek>,
+    /// Steps to the turnaround.
+    span: i64,
     /// Steps between rows.
     every: i64,
     /// Steps in a piece.
@@ -78,19 +86,13 @@ struct Worker {
 }
 
 impl Worker {
-    fn new(opening: Opening, ready: Arc<AtomicBool>, tell: Tell) -> Result<Self, (RunError, Tell)> {
-        let pace = opening.pace;
-        let wanted = opening.options.arithmetic;
-        let (player, recorded) = match opening.player() {
-            Ok(opened) => opened,
-            Err(error) => return Err((error, tell)),
-        };
+    fn new(player: Player, pace: Option<f64>, ready: Arc<AtomicBool>, tell: Tell) -> Self {
         let plan = Plan::of(player.scene());
         let dt = player.scene().time_step();
         let pace = pace.unwrap_or_else(|| suggested_pace(plan.out as f64 * dt));
         let particles = player.home().id.len();
         let every = plan.row_every as i64;
-        let mut worker = Self {
+        Self {
             clock: Clock::new(pace / dt, Instant::now()),
             good: (player.home().clone(), 0, Arrow::Forward),
             player,
@@ -108,10 +110,7 @@ impl Worker {
             keeper: Keeper::default(),
             pictured: None,
             changed: true,
-        };
-        match worker.begin(recorded, wanted, plan.out as i64) {
-            Ok(()) => Ok(worker),
-            Err(error) => Err((error, worker.tell)),
+            span: plan.out as i64,
         }
     }
 
@@ -120,7 +119,6 @@ impl Worker {
         &mut self,
         recorded: Option<Box<Recorded>>,
         arithmetic: ArithmeticKind,
-        span: i64,
     ) -> Result<(), RunError> {
         let fault = |fault: Fault| RunError::Build(fault.into());
         let home = self.player.frame().map_err(fault)?;
@@ -148,7 +146,7 @@ impl Worker {
             digest: self.player.home_digest(),
             reversibility,
             length_quantum: self.player.home().scale.length_quantum(),
-            span,
+            span: self.span,
             row_every: self.every,
             rows,
             status: self.status(),
@@ -443,10 +441,10 @@ impl Worker {
             return (self.tell)(Report::Refused(Refusal::Start));
         }
         let target = target.max(0);
-        if target < position || self.player.arrow() == Arrow::Backward {
-            if let Err(why) = self.player.can_seek() {
-                return (self.tell)(Report::Refused(why.into()));
-            }
+        if (target < position || self.player.arrow() == Arrow::Backward)
+            && let Err(why) = self.player.can_seek()
+        {
+            return (self.tell)(Report::Refused(why.into()));
         }
         self.playing = false;
         self.clock.restart(Instant::now());
