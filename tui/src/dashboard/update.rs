@@ -308,8 +308,16 @@ fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
         }
         Action::StepBack => vec![Effect::Deck(Command::StepBy(-1))],
         Action::StepOn => vec![Effect::Deck(Command::StepBy(1))],
-        Action::Slower => vec![Effect::Deck(Command::Pace(slower(status.pace)))],
-        Action::Faster => vec![Effect::Deck(Command::Pace(faster(status.pace)))],
+        Action::Slower | Action::Faster => {
+            let change = if action == Action::Slower {
+                slower
+            } else {
+                faster
+            };
+            // Shown at once, so that a key that is held adds up.
+            stage.status.pace = change(stage.status.pace);
+            vec![Effect::Deck(Command::Pace(stage.status.pace))]
+        }
         Action::ToStart => seek(0),
         Action::ToFarthest => seek(status.farthest),
         Action::ScrubBack | Action::ScrubOn => {
