@@ -10,10 +10,12 @@
 //!    executors.
 //! 4. [`player`]: moves along time in both directions. Going back is integrating back.
 //! 5. [`run`]: out, turn, back, and what is recorded; [`output`]: the files.
+//! 6. [`deck`]: a player on a thread of its own, for faces that must never wait for a step.
 
 // Allowed in one module, `fast::sweep`, which says why.
 #![deny(unsafe_code)]
 
+pub mod deck;
 mod engine;
 mod executor;
 pub mod fast;
@@ -27,6 +29,7 @@ pub mod setup;
 pub mod simulation;
 mod storage;
 
+pub use deck::Deck;
 pub use executor::{ExecutorKind, Rayon};
 pub use frame::Frame;
 pub use player::{Arrow, Player};

@@ -123,6 +123,11 @@ impl Player {
         Ok(())
     }
 
+    /// Notes that an earlier part of the run has reached this position.
+    pub(crate) fn reached(&mut self, position: i64) {
+        self.farthest = self.farthest.max(position);
+    }
+
     /// Takes `home` as the home state, instead of the scene's: for a run that is resumed.
     ///
     /// # Errors
@@ -208,6 +213,18 @@ impl Player {
         self.arrow = self.arrow.turned();
     }
 
+    /// Whether both directions of time can be sought in.
+    ///
+    /// # Errors
+    /// Why not: the model or its arithmetic cannot go back.
+    pub fn can_seek(&self) -> Result<(), PlayerError> {
+        match self.reversibility() {
+            Reversibility::BitExact => Ok(()),
+            Reversibility::UpToRounding => Err(PlayerError::FloatingPoint),
+            Reversibility::Irreversible => Err(PlayerError::Irreversible),
+        }
+    }
+
     /// Goes to `target` (steps from home) by integrating there, and keeps the arrow it had.
     /// `between` is called after every `chunk` steps with the position and may break off.
     ///
@@ -229,11 +246,7 @@ impl Player {
             return Ok(());
         }
         if way == Arrow::Backward || arrow == Arrow::Backward {
-            match self.reversibility() {
-                Reversibility::BitExact => {}
-                Reversibility::UpToRounding => return Err(PlayerError::FloatingPoint),
-                Reversibility::Irreversible => return Err(PlayerError::Irreversible),
-            }
+            self.can_seek()?;
         }
         if way != arrow {
             self.turn();

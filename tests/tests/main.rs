@@ -4,6 +4,7 @@ mod arithmetic;
 mod caches;
 mod conformance;
 mod conservation;
+mod deck;
 mod digest;
 mod energies;
 mod entropy;

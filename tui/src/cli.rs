@@ -11,7 +11,8 @@ use std::path::PathBuf;
 
 /// Fluids that run backwards: smoothed particle hydrodynamics, reversible to the last bit.
 ///
-/// Without a command, the dam break of 5,000 particles is run out and back.
+/// Without a command, the dam break of 5,000 particles: on a terminal in the dashboard, elsewhere it is run
+/// out and back.
 #[derive(Debug, Parser)]
 #[command(
     name = "loschmidt",
@@ -30,6 +31,8 @@ pub struct Arguments {
 pub enum Command {
     /// Run a scene out and, if it has a turnaround, back; compare the last state with the first
     Run(RunArguments),
+    /// Watch a scene or an earlier run in the dashboard, in both directions of time; ? shows the keys
+    Tui(TuiArguments),
     /// Go on with an interrupted run
     Resume(ResumeArguments),
     /// Make a movie of a scene or of a finished run: numbered pictures, GIF, MP4
@@ -99,6 +102,22 @@ pub struct RunArguments {
     /// Replace an earlier run in the directory
     #[arg(long)]
     pub force: bool,
+}
+
+/// Arguments of `tui`.
+#[derive(Args, Debug, Default)]
+pub struct TuiArguments {
+    /// A scene file, a scene of the catalogue, or the directory of a run
+    /// [default: dam-break with 5,000 particles]
+    #[arg(value_name = "SCENE|RUN")]
+    pub scene: Option<String>,
+    /// Override a key of the scene, for example particle_spacing=0.01; an empty value removes the key; may
+    /// be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Threads of the executor [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub threads: Option<NonZeroUsize>,
 }
 
 /// Arguments of `resume`.
@@ -283,7 +302,7 @@ pub enum ScenesCommand {
 }
 
 /// Most threads that are started: more than any machine has processors for.
-const MOST_THREADS: usize = 1024;
+pub const MOST_THREADS: usize = 1024;
 
 fn threads(text: &str) -> Result<NonZeroUsize, String> {
     match text.parse::<NonZeroUsize>() {

@@ -83,6 +83,7 @@ impl From<RunError> for Failure {
             | RunError::Ended { .. }
             | RunError::ForeignSnapshot(_)
             | RunError::MisplacedSnapshot { .. }
+            | RunError::Watched(_)
             | RunError::NoRows => Self::new(USAGE, format!("error: {error}")),
             RunError::Fault { ref snapshot, .. } => {
                 let mut message = format!("error: {error}");

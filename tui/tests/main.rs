@@ -1,5 +1,7 @@
 //! The program, as a user meets it: all tests in one program, linked once.
 
+#[cfg(unix)]
+mod cli_dashboard;
 mod cli_interrupt;
 mod cli_movie;
 mod cli_result;

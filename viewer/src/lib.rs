@@ -12,6 +12,8 @@
 //! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
 //!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
 //! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
+//! 6. What faces share: [`keys`], the one table of keys; [`track`], the ways out and back as they are
+//!    while a user goes to and fro.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
 //! every machine. Every thread owns the rows it draws, sums over particles are sums of integers or
@@ -26,6 +28,7 @@ pub mod draw;
 pub mod field;
 pub mod history;
 pub mod home;
+pub mod keys;
 pub mod movie;
 pub mod picture;
 pub mod plot;
@@ -33,6 +36,7 @@ pub mod png;
 pub mod raster;
 mod stamp;
 pub mod text;
+pub mod track;
 
 pub use camera::{Projection, View};
 pub use colour::{Colormap, Rgb, Theme};
@@ -41,5 +45,7 @@ pub use draw::{Look, Pane, draw};
 pub use field::field;
 pub use history::{History, Point};
 pub use home::Home;
+pub use keys::{Action, Key};
 pub use picture::Picture;
 pub use raster::{Raster, Rect};
+pub use track::Track;

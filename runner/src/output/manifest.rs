@@ -15,6 +15,8 @@ pub enum Status {
     Finished,
     /// Left the number range.
     Failed,
+    /// Left by a dashboard, to be opened there again.
+    Watched,
 }
 
 /// The manifest.

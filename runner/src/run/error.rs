@@ -52,6 +52,9 @@ pub enum RunError {
         /// Whether it left the number range.
         failed: bool,
     },
+    /// The directory was left by a dashboard, whose user goes back and forth as a plan does not.
+    #[error("{} was left by the dashboard: open it with `loschmidt tui`", .0.display())]
+    Watched(PathBuf),
     /// A snapshot of another scene.
     #[error("{} was taken of another scene than the scene.toml beside it", .0.display())]
     ForeignSnapshot(PathBuf),

@@ -107,6 +107,7 @@ impl Run {
         let manifest = RunDirectory::read_manifest(path)?;
         match manifest.status {
             Status::Running | Status::Interrupted => {}
+            Status::Watched => return Err(RunError::Watched(path.to_owned())),
             Status::Finished | Status::Failed => {
                 return Err(RunError::Ended {
                     path: path.to_owned(),
@@ -447,6 +448,6 @@ fn new_player(scene: Scene, options: Options) -> Result<Player, RunError> {
 }
 
 /// Hash of the resolved scene, which ties snapshots to it.
-fn scene_hash(scene: &Scene) -> [u8; 16] {
+pub(crate) fn scene_hash(scene: &Scene) -> [u8; 16] {
     hash(scene.to_toml().as_bytes())
 }

@@ -70,10 +70,16 @@ impl Row {
     /// # Errors
     /// As a step.
     pub fn measure(player: &mut Player, leg: u8) -> Result<Self, Fault> {
-        let d: Diagnostics = player.measure()?;
+        let diagnostics = player.measure()?;
+        Ok(Self::of(player, leg, &diagnostics))
+    }
+
+    /// The row of the player's state, of which `d` was just measured.
+    #[must_use]
+    pub fn of(player: &Player, leg: u8, d: &Diagnostics) -> Self {
         let e: Energies = d.energies;
         let fit = d.histogram.fitted_temperature();
-        Ok(Self {
+        Self {
             step: player.steps_taken(),
             position: player.position(),
             leg,
@@ -98,7 +104,7 @@ impl Row {
             fitted_temperature_m2_per_s2: fit,
             faster_than_last_bin: d.histogram.beyond,
             front_m: d.front,
-        })
+        }
     }
 
     /// Σ v in speed quanta.

@@ -4,8 +4,10 @@ mod check;
 mod movie;
 mod run;
 mod scenes;
+mod tui;
 
-use crate::cli::{Arguments, Command, RunArguments};
+use crate::cli::{Arguments, Command, RunArguments, TuiArguments};
+use crate::dashboard;
 use crate::exit::Failure;
 use clap::CommandFactory;
 use loschmidt_runner::output::Snapshot;
@@ -15,8 +17,10 @@ use std::process::ExitCode;
 /// Does what the command line says.
 pub fn execute(arguments: Arguments) -> Result<ExitCode, Failure> {
     match arguments.command {
+        None if dashboard::is_terminal() => tui::tui(&TuiArguments::default()),
         None => run::run(&RunArguments::default()),
         Some(Command::Run(arguments)) => run::run(&arguments),
+        Some(Command::Tui(arguments)) => tui::tui(&arguments),
         Some(Command::Resume(arguments)) => run::resume(&arguments),
         Some(Command::Movie(arguments)) => movie::movie(&arguments),
         Some(Command::Scenes(arguments)) => scenes::scenes(&arguments),

@@ -3,6 +3,9 @@
 // Every test file takes what it needs of this.
 #![allow(dead_code)]
 
+#[cfg(unix)]
+pub mod terminal;
+
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,0 +1,525 @@
+//! The thread of a deck.
+
+use super::FRAMES;
+use super::clock::{Clock, suggested_pace};
+use super::keep::Keeper;
+use super::messages::{
+    Arrival, Command, Meddling, Moment, Opened, Perturbation, Refusal, Report, Seek, Shot, Status,
+};
+use super::opening::{Opening, Recorded};
+use super::waypoints::Waypoints;
+use crate::player::{Arrow, Player};
+use crate::run::{Plan, Row, RunError};
+use crate::saved::{ArithmeticKind, SavedState};
+use loschmidt_core::{Fault, Reversibility};
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Steps are taken in pieces of about this many particle steps: some milliseconds.
+const PIECE: u64 = 20_000;
+
+type Tell = Box<dyn Fn(Report) + Send>;
+
+/// Plays until the face has gone.
+pub(super) fn work(opening: Opening, inbox: Receiver<Command>, ready: Arc<AtomicBool>, tell: Tell) {
+    let tell: Arc<Mutex<Tell>> = Arc::new(Mutex::new(tell));
+    let ours = Arc::clone(&tell);
+    let say = move |report| {
+        if let Ok(tell) = ours.lock() {
+            tell(report);
+        }
+    };
+    // A defect must not leave a face that waits for ever.
+    let played = catch_unwind(AssertUnwindSafe(move || {
+        let (pace, arithmetic) = (opening.pace, opening.options.arithmetic);
+        let (player, recorded) = match opening.player() {
+            Ok(opened) => opened,
+            Err(error) => return say(Report::Failed(error.to_string())),
+        };
+        let mut worker = Worker::new(player, pace, ready, Box::new(say));
+        match worker.begin(recorded, arithmetic) {
+            Ok(()) => worker.run(&inbox),
+            Err(error) => (worker.tell)(Report::Failed(error.to_string())),
+        }
+    }));
+    if let Err(panic) = played {
+        let text = panic.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned()));
+        let why = format!("a defect of the program: {}", text.unwrap_or_default());
+        let tell = tell.lock().unwrap_or_else(PoisonError::into_inner);
+        tell(Report::Failed(why));
+    }
+}
+
+struct Worker {
+    player: Player,
+    tell: Tell,
+    /// The face wants another picture.
+    ready: Arc<AtomicBool>,
+    clock: Clock,
+    pace: f64,
+    playing: bool,
+    seek: Option<Seek>,
+    /// Steps to the turnaround.
+    span: i64,
+    /// Steps between rows.
+    every: i64,
+    /// Steps in a piece.
+    piece: u64,
+    waypoints: Waypoints,
+    astray: Option<usize>,
+    meddling: Vec<Meddling>,
+    /// The farthest since it last was at the start, steps.
+    excursion: i64,
+    /// The state that is gone back to when a step fails.
+    good: (SavedState, i64, Arrow),
+    keeper: Keeper,
+    /// When the last picture was handed over; `None` where the state has changed and a picture must
+    /// follow soon.
+    pictured: Option<Instant>,
+    /// The state has changed since.
+    changed: bool,
+}
+
+impl Worker {
+    fn new(player: Player, pace: Option<f64>, ready: Arc<AtomicBool>, tell: Tell) -> Self {
+        let plan = Plan::of(player.scene());
+        let dt = player.scene().time_step();
+        let pace = pace.unwrap_or_else(|| suggested_pace(plan.out as f64 * dt));
+        let particles = player.home().id.len();
+        let every = plan.row_every as i64;
+        Self {
+            clock: Clock::new(pace / dt, Instant::now()),
+            good: (player.home().clone(), 0, Arrow::Forward),
+            player,
+            tell,
+            ready,
+            pace,
+            playing: true,
+            seek: None,
+            every,
+            piece: (PIECE / particles.max(1) as u64).max(1),
+            waypoints: Waypoints::new(every, particles),
+            astray: None,
+            meddling: Vec::new(),
+            excursion: 0,
+            keeper: Keeper::default(),
+            pictured: None,
+            changed: true,
+            span: plan.out as i64,
+        }
+    }
+
+    /// Tells of home, and goes to where an earlier run was left.
+    fn begin(
+        &mut self,
+        recorded: Option<Box<Recorded>>,
+        arithmetic: ArithmeticKind,
+    ) -> Result<(), RunError> {
+        let fault = |fault: Fault| RunError::Build(fault.into());
+        let home = self.player.frame().map_err(fault)?;
+        let first = Row::measure(&mut self.player, 1).map_err(fault)?;
+        let reversibility = self.player.reversibility();
+        self.waypoints.mark(0, self.player.home(), Arrow::Forward);
+        let rows = match recorded {
+            None => Vec::new(),
+            Some(recorded) => {
+                self.player.switch_arithmetic(arithmetic)?;
+                self.player
+                    .restore(&recorded.state, recorded.position, recorded.arrow)?;
+                let farthest = recorded.rows.iter().map(|row| row.position).max();
+                self.player.reached(farthest.unwrap_or(0));
+                recorded.rows
+            }
+        };
+        self.keep_good();
+        self.excursion = self.player.farthest();
+        let opened = Opened {
+            scene: self.player.scene().clone(),
+            options: *self.player.options(),
+            home,
+            first,
+            digest: self.player.home_digest(),
+            reversibility,
+            length_quantum: self.player.home().scale.length_quantum(),
+            span: self.span,
+            row_every: self.every,
+            rows,
+            status: self.status(),
+        };
+        (self.tell)(Report::Opened(Box::new(opened)));
+        self.measure(Arrow::Forward, false);
+        if self.at_start() {
+            self.arrived();
+        }
+        self.clock.restart(Instant::now());
+        Ok(())
+    }
+
+    fn run(&mut self, inbox: &Receiver<Command>) {
+        loop {
+            loop {
+                match inbox.try_recv() {
+                    Ok(command) => self.obey(command),
+                    Err(TryRecvError::Empty) => break,
+                    Err(TryRecvError::Disconnected) => return,
+                }
+            }
+            let wait = self.go_on();
+            let wait = self.picture(wait);
+            if wait.is_zero() {
+                continue;
+            }
+            match inbox.recv_timeout(wait) {
+                Ok(command) => self.obey(command),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+        }
+    }
+
+    /// Takes the steps that are due; how long there is nothing to do.
+    fn go_on(&mut self) -> Duration {
+        const IDLE: Duration = Duration::from_secs(3600);
+        if self.seek.is_some() {
+            self.seek_piece();
+            return Duration::ZERO;
+        }
+        if !self.playing || self.at_start() {
+            return IDLE;
+        }
+        let now = Instant::now();
+        match self.clock.due(now) {
+            Err(wait) => wait,
+            Ok(due) => {
+                let steps = due.min(self.piece).min(self.room());
+                match self.player.advance(steps) {
+                    Ok(()) => {
+                        self.clock.took(steps, Instant::now());
+                        self.moved(self.player.arrow());
+                    }
+                    Err(fault) => self.fail(fault),
+                }
+                Duration::ZERO
+            }
+        }
+    }
+
+    /// Time has been turned, and the start reached.
+    fn at_start(&self) -> bool {
+        self.player.arrow() == Arrow::Backward && self.player.position() <= 0
+    }
+
+    /// Steps to the next row or to the start, whichever comes first.
+    fn room(&self) -> u64 {
+        let position = self.player.position();
+        let steps = match self.player.arrow() {
+            Arrow::Forward => self.every - position.rem_euclid(self.every),
+            Arrow::Backward => match position.rem_euclid(self.every) {
+                0 => self.every,
+                past => past,
+            }
+            .min(position),
+        };
+        steps.max(1) as u64
+    }
+
+    /// Goes on with a seek, to the next row at most.
+    fn seek_piece(&mut self) {
+        let Some(seek) = self.seek else { return };
+        let position = self.player.position();
+        let travel = if seek.target < position {
+            Arrow::Backward
+        } else {
+            Arrow::Forward
+        };
+        let past = position.rem_euclid(self.every);
+        let next = match travel {
+            Arrow::Forward => (position - past + self.every).min(seek.target),
+            Arrow::Backward if past == 0 => (position - self.every).max(seek.target),
+            Arrow::Backward => (position - past).max(seek.target),
+        };
+        let piece = self.piece as i64;
+        let next = next.clamp(position - piece, position + piece);
+        match self
+            .player
+            .seek(next, self.piece, |_| ControlFlow::Continue(()))
+        {
+            Ok(()) => {}
+            Err(crate::player::PlayerError::Fault(fault)) => return self.fail(fault),
+            Err(why) => {
+                self.seek = None;
+                return (self.tell)(Report::Refused(why.into()));
+            }
+        }
+        self.clock.took(next.abs_diff(position), Instant::now());
+        let ended = next == seek.target;
+        if ended {
+            self.seek = None;
+        }
+        self.moved(travel);
+        if ended {
+            if next.rem_euclid(self.every) != 0 {
+                self.measure(travel, false);
+            }
+            self.stand();
+            (self.tell)(Report::SeekEnded(true));
+            self.report();
+        }
+    }
+
+    /// What is due after a piece of steps.
+    fn moved(&mut self, travel: Arrow) {
+        self.changed = true;
+        let position = self.player.position();
+        self.excursion = self.excursion.max(position);
+        if position.rem_euclid(self.every) == 0 {
+            self.measure(travel, true);
+        }
+        if position == 0 && travel == Arrow::Backward {
+            self.arrived();
+        }
+    }
+
+    fn keep_good(&mut self) {
+        self.good = (
+            self.player.save(),
+            self.player.position(),
+            self.player.arrow(),
+        );
+    }
+
+    /// Measures the state, and marks it or compares it with the marks.
+    fn measure(&mut self, travel: Arrow, regular: bool) {
+        let leg = match travel {
+            Arrow::Forward => 1,
+            Arrow::Backward => 2,
+        };
+        let measured = self.player.measure();
+        let measured = measured.map(|d| (Row::of(&self.player, leg, &d), d.histogram));
+        let (row, histogram) = match measured {
+            Ok(measured) => measured,
+            Err(fault) => return self.fail(fault),
+        };
+        if regular {
+            self.keep_good();
+            let (state, position, arrow) = &self.good;
+            match travel {
+                Arrow::Forward => {
+                    self.waypoints.mark(*position, state, *arrow);
+                    self.astray = None;
+                }
+                Arrow::Backward => {
+                    let astray = self.waypoints.astray(*position, state, *arrow);
+                    self.astray = astray.or(self.astray);
+                }
+            }
+        }
+        (self.tell)(Report::Moment(Box::new(Moment {
+            row,
+            histogram,
+            travel,
+            regular,
+        })));
+    }
+
+    /// At the start, coming from later.
+    fn arrived(&mut self) {
+        let comparison = self.player.compare_with_home();
+        let farthest = std::mem::take(&mut self.excursion);
+        (self.tell)(Report::Arrived(Box::new(Arrival {
+            comparison,
+            farthest,
+            farthest_time: farthest as f64 * self.player.scene().time_step(),
+            meddling: self.meddling.clone(),
+            arithmetic: self.player.options().arithmetic,
+        })));
+        if comparison.is_exact() {
+            self.meddling.clear();
+        }
+        self.stand();
+        self.report();
+    }
+
+    /// Time stands still from now on: the numbers shown are those of this state.
+    fn stand(&mut self) {
+        self.clock.restart(Instant::now());
+        self.pictured = None;
+        self.changed = true;
+    }
+
+    /// The numbers ended: back to the last good state.
+    fn fail(&mut self, fault: Fault) {
+        let (state, position, arrow) = &self.good;
+        // It came from this very player: it fits.
+        let _ = self.player.restore(state, *position, *arrow);
+        self.playing = false;
+        self.seek = None;
+        self.stand();
+        (self.tell)(Report::Fault(fault));
+        self.report();
+    }
+
+    fn obey(&mut self, command: Command) {
+        match command {
+            Command::Play(play) => self.play(play),
+            Command::Turn => self.turn(),
+            Command::StepBy(steps) => {
+                let under_way = self.seek.map(|seek| seek.target);
+                self.seek_to(under_way.unwrap_or(self.player.position()) + steps);
+            }
+            Command::Seek(target) => self.seek_to(target),
+            Command::Cancel => {
+                if self.seek.take().is_some() {
+                    self.pause();
+                    (self.tell)(Report::SeekEnded(false));
+                }
+            }
+            Command::Pace(pace) => {
+                self.pace = pace;
+                self.clock.set_rate(pace / self.player.scene().time_step());
+            }
+            Command::Flip(particle) => {
+                self.player.flip_last_bit(particle);
+                self.meddled(Perturbation::Flipped(particle));
+            }
+            Command::Switch(arithmetic) => match self.player.switch_arithmetic(arithmetic) {
+                Ok(()) => self.meddled(Perturbation::Switched(arithmetic)),
+                Err(why) => (self.tell)(Report::Refused(why.into())),
+            },
+            Command::Keep { path, rows } => {
+                let report = match self.keeper.keep(&mut self.player, &path, &rows) {
+                    Ok(()) => Report::Kept(path),
+                    Err(why) => Report::NotKept(why.to_string()),
+                };
+                (self.tell)(report);
+            }
+        }
+        self.report();
+    }
+
+    fn play(&mut self, play: bool) {
+        self.seek = None;
+        if play {
+            self.playing = true;
+            self.clock.restart(Instant::now());
+        } else {
+            self.pause();
+        }
+    }
+
+    fn pause(&mut self) {
+        self.playing = false;
+        self.stand();
+        let travel = self.player.arrow();
+        self.measure(travel, false);
+    }
+
+    fn turn(&mut self) {
+        // Floating point may turn: to see it fail is an experiment. What has no way back may not.
+        let returns = matches!(
+            self.player.reversibility(),
+            Reversibility::BitExact | Reversibility::UpToRounding
+        );
+        if let (false, Err(why)) = (returns, self.player.can_seek()) {
+            return (self.tell)(Report::Refused(why.into()));
+        }
+        self.seek = None;
+        self.player.turn();
+        self.keep_good();
+        self.stand();
+        (self.tell)(Report::Turned(self.player.arrow()));
+    }
+
+    fn seek_to(&mut self, target: i64) {
+        let position = self.player.position();
+        if target < 0 && position == 0 && self.seek.is_none() {
+            return (self.tell)(Report::Refused(Refusal::Start));
+        }
+        let target = target.max(0);
+        if (target < position || self.player.arrow() == Arrow::Backward)
+            && let Err(why) = self.player.can_seek()
+        {
+            return (self.tell)(Report::Refused(why.into()));
+        }
+        self.playing = false;
+        self.clock.restart(Instant::now());
+        if target != position {
+            self.seek = Some(Seek {
+                from: position,
+                target,
+            });
+        } else {
+            self.pause();
+            (self.tell)(Report::SeekEnded(true));
+        }
+    }
+
+    fn meddled(&mut self, what: Perturbation) {
+        let meddling = Meddling {
+            what,
+            position: self.player.position(),
+            time: self.player.time(),
+        };
+        self.meddling.push(meddling);
+        // One particle at least is astray from now on, if any way is known.
+        self.astray = self.astray.map(|n| n.max(1));
+        self.keep_good();
+        self.stand();
+        (self.tell)(Report::Meddled(meddling));
+    }
+
+    fn status(&self) -> Status {
+        let now = Instant::now();
+        let moving = self.seek.is_some() || (self.playing && !self.at_start());
+        Status {
+            position: self.player.position(),
+            farthest: self.player.farthest(),
+            time: self.player.time(),
+            arrow: self.player.arrow(),
+            playing: self.playing,
+            at_start: self.at_start(),
+            seek: self.seek,
+            pace: self.pace,
+            steps_per_second: if moving { self.clock.speed(now) } else { 0.0 },
+            keeps_up: self.seek.is_some() || self.clock.keeps_up(now),
+            arithmetic: self.player.options().arithmetic,
+            meddling: self.meddling.clone(),
+            astray: self.astray,
+        }
+    }
+
+    fn report(&self) {
+        (self.tell)(Report::Status(self.status()));
+    }
+
+    /// Hands over a picture when one is due and wanted; how long to wait then, at most `wait`.
+    fn picture(&mut self, wait: Duration) -> Duration {
+        if !self.changed {
+            return wait;
+        }
+        let pause = Duration::from_secs(1) / FRAMES;
+        let age = self.pictured.map_or(pause, |then| then.elapsed());
+        if age < pause {
+            return wait.min(pause - age);
+        }
+        if !self.ready.swap(false, Ordering::Acquire) {
+            // The face is still at the last one.
+            return wait.min(Duration::from_millis(2));
+        }
+        match self.player.frame() {
+            Ok(frame) => {
+                self.pictured = Some(Instant::now());
+                self.changed = false;
+                let status = self.status();
+                (self.tell)(Report::Shot(Box::new(Shot { frame, status })));
+            }
+            Err(fault) => self.fail(fault),
+        }
+        wait
+    }
+}

@@ -1,0 +1,37 @@
+//! `tui`: the dashboard.
+
+use super::run::stop_flag;
+use crate::cli::{RunArguments, TuiArguments};
+use crate::dashboard::{self, Request};
+use crate::exit::{Failure, USAGE};
+use loschmidt_runner::Options;
+use std::process::ExitCode;
+
+/// Opens the dashboard.
+pub fn tui(arguments: &TuiArguments) -> Result<ExitCode, Failure> {
+    if !dashboard::is_terminal() {
+        return Err(Failure::new(
+            USAGE,
+            "error: `loschmidt tui` needs a terminal; `loschmidt run` does without",
+        ));
+    }
+    let options = Options::default();
+    let default = RunArguments::default().scene;
+    let request = match &arguments.scene {
+        Some(name) => Request {
+            name: name.clone(),
+            set: arguments.set.clone(),
+            threads: arguments.threads.map(Into::into),
+        },
+        None => Request {
+            name: default.scene,
+            set: default
+                .set
+                .into_iter()
+                .chain(arguments.set.clone())
+                .collect(),
+            threads: arguments.threads.map(Into::into),
+        },
+    };
+    dashboard::run(request, options, &*stop_flag()?)
+}

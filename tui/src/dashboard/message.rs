@@ -1,0 +1,86 @@
+//! What the dashboard is told, and what it asks for.
+
+use loschmidt_runner::deck::{Command, Report};
+use loschmidt_viewer::Key;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// What the dashboard is told.
+#[derive(Debug)]
+pub enum Message {
+    /// A key was pressed.
+    Key(Key),
+    /// The mouse, with the cell that it is at.
+    Mouse(Mouse, u16, u16),
+    /// The terminal has this many columns and rows.
+    Resized(u16, u16),
+    /// The deck has something to say; with the number of the deck, since reports of an earlier one
+    /// may still be under way.
+    Report(u64, Box<Report>),
+    /// Time goes by, counted from the start of the program.
+    Tick(Duration),
+    /// What can be opened.
+    Choices(Vec<Choice>),
+    /// A picture was written, or not.
+    Pictured(Result<PathBuf, String>),
+    /// A scene could not even be read.
+    NotOpened(String),
+    /// A deck with this number has begun to open what was asked for.
+    Opening(u64, Request),
+}
+
+/// What the mouse did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mouse {
+    /// The left button went down.
+    Press,
+    /// The left button is held.
+    Drag,
+    /// The left button went up.
+    Release,
+    /// The right button went down.
+    PressRight,
+    /// The right button is held.
+    DragRight,
+    /// The wheel.
+    WheelUp,
+    /// The wheel.
+    WheelDown,
+}
+
+/// What can be opened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// Name of a scene, path of a scene file or of a run.
+    pub name: String,
+    /// What it is.
+    pub title: String,
+}
+
+/// What is to be opened.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Request {
+    /// A name or path.
+    pub name: String,
+    /// Overrides `key=value`.
+    pub set: Vec<String>,
+    /// Threads; `None` for those of before.
+    pub threads: Option<usize>,
+}
+
+/// What the dashboard asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Effect {
+    /// To tell the deck.
+    Deck(Command),
+    /// To open this in the place of what is open.
+    Open(Request),
+    /// To look for what can be opened: answered by [`Message::Choices`].
+    List,
+    /// To write a picture: answered by [`Message::Pictured`].
+    Picture,
+    /// To keep the state.
+    Keep,
+    /// To leave.
+    Quit,
+}

@@ -1,0 +1,149 @@
+//! The terminal: taken when the dashboard opens, and given back however it ends.
+
+use super::keys;
+use super::message::Message;
+use super::state::State;
+use ratatui::backend::CrosstermBackend;
+use ratatui::crossterm::event::{self, DisableMouseCapture, EnableMouseCapture};
+use ratatui::crossterm::terminal::{
+    BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
+    SetTitle, disable_raw_mode, enable_raw_mode,
+};
+use ratatui::crossterm::{cursor, execute, queue};
+use std::io::{BufWriter, IsTerminal, Stdout, Write, stdout};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::Sender;
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// How often the thread that waits for keys looks whether it is still needed.
+const LOOK_UP: Duration = Duration::from_millis(50);
+
+/// A frame is handed to the terminal in one piece where it fits.
+const BUFFER: usize = 1 << 18;
+
+type Screen = ratatui::Terminal<CrosstermBackend<BufWriter<Stdout>>>;
+
+/// Whether there is a terminal to draw on and to read keys from.
+pub fn is_terminal() -> bool {
+    let dumb = std::env::var("TERM").is_ok_and(|term| term == "dumb");
+    std::io::stdin().is_terminal() && stdout().is_terminal() && !dumb
+}
+
+/// The terminal in our hands.
+pub struct Terminal {
+    /// `None` once the terminal is given back.
+    screen: Option<Screen>,
+    gone: Arc<AtomicBool>,
+    listener: Option<JoinHandle<()>>,
+}
+
+impl Terminal {
+    /// Takes the terminal; a panic of this thread gives it back before it is reported.
+    pub fn enter() -> std::io::Result<Self> {
+        let before = std::panic::take_hook();
+        let ours = std::thread::current().id();
+        std::panic::set_hook(Box::new(move |info| {
+            // The threads of the simulation report by themselves; a message of theirs would be
+            // written over the screen.
+            if std::thread::current().id() == ours {
+                restore();
+                before(info);
+            }
+        }));
+        enable_raw_mode()?;
+        let entered = execute!(
+            stdout(),
+            EnterAlternateScreen,
+            EnableMouseCapture,
+            cursor::Hide,
+            SetTitle("loschmidt")
+        );
+        let writer = BufWriter::with_capacity(BUFFER, stdout());
+        let screen = entered.and_then(|()| Screen::new(CrosstermBackend::new(writer)));
+        match screen {
+            Ok(screen) => Ok(Self {
+                screen: Some(screen),
+                gone: Arc::new(AtomicBool::new(false)),
+                listener: None,
+            }),
+            Err(error) => {
+                restore();
+                Err(error)
+            }
+        }
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> std::io::Result<(u16, u16)> {
+        ratatui::crossterm::terminal::size()
+    }
+
+    /// Sends what the keyboard, the mouse and the window's frame say, from a thread of its own.
+    pub fn listen(&mut self, sender: Sender<Message>) {
+        let gone = Arc::clone(&self.gone);
+        let listen = move || {
+            while !gone.load(Ordering::Relaxed) {
+                match event::poll(LOOK_UP) {
+                    Ok(false) => {}
+                    Ok(true) => {
+                        let Ok(event) = event::read() else { return };
+                        let Some(message) = keys::message(event) else {
+                            continue;
+                        };
+                        if sender.send(message).is_err() {
+                            return;
+                        }
+                    }
+                    Err(_) => return,
+                }
+            }
+        };
+        self.listener = Some(std::thread::spawn(listen));
+    }
+
+    /// Draws the state, in one piece where the terminal can.
+    pub fn draw(&mut self, state: &State) -> std::io::Result<()> {
+        let Some(screen) = &mut self.screen else {
+            return Ok(());
+        };
+        queue!(screen.backend_mut(), BeginSynchronizedUpdate)?;
+        screen.draw(|frame| frame.render_widget(state, frame.area()))?;
+        queue!(screen.backend_mut(), EndSynchronizedUpdate)?;
+        Write::flush(screen.backend_mut())
+    }
+}
+
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        self.gone.store(true, Ordering::Relaxed);
+        // Where the terminal has gone, reading from it may never end: the thread is left to its fate
+        // then, which is the end of the program.
+        let end = Instant::now() + 6 * LOOK_UP;
+        if let Some(listener) = self.listener.take() {
+            while !listener.is_finished() && Instant::now() < end {
+                std::thread::sleep(Duration::from_millis(2));
+            }
+        }
+        if let Some(mut screen) = self.screen.take()
+            && screen.show_cursor().is_err()
+        {
+            // It would complain to a standard error that has gone with the terminal, and panic.
+            std::mem::forget(screen);
+        }
+        restore();
+    }
+}
+
+/// Gives the terminal back; what cannot be done about a terminal that has gone is not done.
+fn restore() {
+    let _ = disable_raw_mode();
+    let _ = execute!(
+        stdout(),
+        EndSynchronizedUpdate,
+        DisableMouseCapture,
+        LeaveAlternateScreen,
+        cursor::Show
+    );
+}

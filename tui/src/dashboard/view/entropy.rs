@@ -1,0 +1,85 @@
+//! Reduced Boltzmann entropy, with its equilibrium values.
+
+use super::super::state::Stage;
+use super::ink::Ink;
+use super::numbers::fixed;
+use super::plot::{Curve, Plot};
+use super::{Piece, write};
+use loschmidt_runner::run::Row;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::Modifier;
+
+/// Draws the entropy.
+pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+    if area.height < 3 {
+        return;
+    }
+    let row = stage.row();
+    let theme = &ink.theme;
+    let value = |x: Option<f64>| x.map_or("–".to_owned(), |s| fixed(s, 3));
+    let strong = ink.time().add_modifier(Modifier::BOLD);
+    let mut pieces: Vec<Piece> = vec![
+        ("ENTROPY  ".to_owned(), ink.bold()),
+        ("S ".to_owned(), ink.time()),
+        (fixed(row.entropy, 4), strong),
+    ];
+    let of_energy = value(row.equilibrium_entropy_of_energy);
+    let of_fit = value(row.equilibrium_entropy_of_fit);
+    let equilibrium: [Piece; 2] = if area.width >= 66 {
+        [
+            (
+                format!("   in equilibrium {of_energy} by energy"),
+                ink.of_colour(theme.second),
+            ),
+            (format!("  {of_fit} by fit"), ink.of_colour(theme.third)),
+        ]
+    } else {
+        [
+            (format!("  eq {of_energy}"), ink.of_colour(theme.second)),
+            (format!(" fit {of_fit}"), ink.of_colour(theme.third)),
+        ]
+    };
+    pieces.extend(equilibrium);
+    write(buf, area, area.y, &pieces);
+
+    let curves = [
+        Curve {
+            colour: theme.forward,
+            back: Some(theme.backward),
+            value: &|row: &Row| Some(row.entropy),
+            reference: false,
+        },
+        Curve {
+            colour: theme.second,
+            back: None,
+            value: &|row: &Row| row.equilibrium_entropy_of_energy,
+            reference: true,
+        },
+        Curve {
+            colour: theme.third,
+            back: None,
+            value: &|row: &Row| row.equilibrium_entropy_of_fit,
+            reference: true,
+        },
+    ];
+    let rows = || stage.track.out().iter().chain(stage.track.back());
+    let mut low = rows().fold(f64::INFINITY, |m, row| m.min(row.entropy));
+    let mut high = rows().fold(f64::NEG_INFINITY, |m, row| {
+        m.max(row.entropy)
+            .max(row.equilibrium_entropy_of_energy.unwrap_or(row.entropy))
+    });
+    if high - low < 0.5 {
+        (low, high) = (low - 0.5, low + 0.5);
+    }
+    let room = 0.05 * (high - low);
+    let plot = Rect::new(area.x, area.y + 1, area.width, area.height - 1);
+    Plot {
+        track: &stage.track,
+        curves: &curves,
+        range: [low - room, high + room],
+        span: stage.span() as f64 * stage.opened.scene.time_step(),
+        now: stage.status.time,
+    }
+    .render(plot, buf, ink);
+}

@@ -1,0 +1,99 @@
+//! The ways out and back while a user goes to and fro.
+//!
+//! A run that is watched turns whenever its user likes. The way out has one moment at every place in
+//! time, the latest that was lived through going on; the way back is that of the last journey towards the
+//! start. So a plot shows the one drawn over the other, and no more, however long one plays.
+
+use crate::history::{History, Point};
+use loschmidt_runner::Arrow;
+use loschmidt_runner::run::Row;
+
+/// The rows of the way out and of the last way back.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Track {
+    /// Rising positions.
+    out: Vec<Row>,
+    /// Falling positions.
+    back: Vec<Row>,
+}
+
+impl Track {
+    /// Adds a row that was reached in this direction.
+    pub fn push(&mut self, row: Row, travel: Arrow) {
+        match travel {
+            Arrow::Forward => {
+                self.back.clear();
+                let place = self.out.partition_point(|r| r.position < row.position);
+                match self.out.get_mut(place) {
+                    Some(there) if there.position == row.position => *there = row,
+                    _ => self.out.insert(place, row),
+                }
+            }
+            Arrow::Backward => {
+                let goes_on = self.back.last().is_none_or(|r| r.position > row.position);
+                if !goes_on {
+                    self.back.clear();
+                }
+                self.back.push(row);
+            }
+        }
+    }
+
+    /// The track of a series.
+    #[must_use]
+    pub fn of_rows(rows: &[Row]) -> Self {
+        let mut track = Self::default();
+        for row in rows {
+            let travel = if row.leg == 2 {
+                Arrow::Backward
+            } else {
+                Arrow::Forward
+            };
+            track.push(row.clone(), travel);
+        }
+        track
+    }
+
+    /// The way out, in the order of physical time.
+    #[must_use]
+    pub fn out(&self) -> &[Row] {
+        &self.out
+    }
+
+    /// The way back, in the order of its steps; empty on the way out.
+    #[must_use]
+    pub fn back(&self) -> &[Row] {
+        &self.back
+    }
+
+    /// The way out up to the turn and the way back, numbered anew: the series of a run that went
+    /// straight out and back.
+    #[must_use]
+    pub fn rows(&self) -> Vec<Row> {
+        let turn = self.back.first().map(|row| row.position);
+        let out = self
+            .out
+            .iter()
+            .filter(|row| turn.is_none_or(|turn| row.position <= turn));
+        let mut rows: Vec<Row> = out.chain(&self.back).cloned().collect();
+        let farthest = turn.unwrap_or(0);
+        for row in &mut rows {
+            row.step = if row.leg == 2 {
+                (2 * farthest - row.position).unsigned_abs()
+            } else {
+                row.position.unsigned_abs()
+            };
+        }
+        rows
+    }
+
+    /// The same as a history, for pictures. `span`: physical time that the plots have room for, s.
+    #[must_use]
+    pub fn history(&self, span: f64) -> History {
+        let mut history = History::new(span);
+        for row in self.rows() {
+            history.push(Point::from(&row));
+        }
+        history
+    }
+}
