@@ -1,5 +1,6 @@
 //! From a scene to a simulation: the parameters of the core, its units, and the memory it takes.
 
+use crate::isc;
 use crate::player::Player;
 use crate::scene::{self, InitialState, Point, Scene};
 use crate::simulation::{BuildError, ModelKind, Options, Simulation, build};
@@ -44,6 +45,7 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
         },
         density_correction: match scene.density_correction {
             scene::DensityCorrection::Constant => DensityCorrection::Constant,
+            scene::DensityCorrection::Isc => DensityCorrection::Walls,
             scene::DensityCorrection::None => DensityCorrection::None,
         },
         gravity: Gravity {
@@ -140,7 +142,12 @@ pub fn estimated_bytes(scene: &Scene) -> u64 {
     let initial = 48 * fluid + 24 * walls;
     let saved = 3 * 8 * ((2 * dimension + 2) * fluid + (dimension + 1) * walls);
     let frame = 72 * fluid + 24 * walls;
-    system + initial + saved + frame
+    let correction = match scene.density_correction {
+        scene::DensityCorrection::Isc => isc::estimated_bytes(dimension, scene.support, fluid),
+        scene::DensityCorrection::Constant | scene::DensityCorrection::None => 0,
+    };
+    // What the correction takes is given back before the rest is taken.
+    initial + correction.max(system + saved + frame)
 }
 
 /// Bytes of memory that this machine can still give, where it can be told.

@@ -10,6 +10,7 @@ mod entropy;
 mod exact;
 mod faults;
 mod integrators;
+mod isc;
 mod kernel;
 mod neighbours;
 mod number;

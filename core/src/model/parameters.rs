@@ -49,6 +49,9 @@ pub enum Wall {
 pub enum DensityCorrection {
     /// C_a = ρ0 - Σ m W at step 0, eq. (5).
     Constant,
+    /// C_a = 0 for the fluid, whose initial state was corrected instead; dummy walls, which stay where
+    /// they are, have their constants.
+    Walls,
     /// C_a = 0, eq. (4).
     None,
 }

@@ -257,7 +257,7 @@ pub(super) const KEYS: &[Key] = &[
     key(Top, "end", Number, "s").within(Above(0.0)).means("time at which the run stops, both legs added; absent: twice the turnaround"),
     key(Top, "model", Choice(Model::WORDS), "").or_word("symplectic").means("density by summation (reversible) or advanced in time"),
     key(Top, "integrator", Choice(Integrator::WORDS), "").or_word("stormer-verlet").means("composition of drifts and kicks in a step"),
-    key(Top, "density_correction", Choice(DensityCorrection::WORDS), "").or_word("constant").means("a constant per particle makes the first density the reference density"),
+    key(Top, "density_correction", Choice(DensityCorrection::WORDS), "").or_word("constant").means("what makes the first density the reference density: a constant per particle, an initial state correction (the particles are moved), or nothing"),
     key(Top, "wall_model", Choice(WallModel::WORDS), "").or_word("conservative").means("repulsive potential, fixed fluid particles, or walls left out"),
     key(Top, "fluid", Table(Fluid), "").required().means("what the material is"),
     key(Top, "gravity", Table(Gravity), "").means("which outside forces act"),

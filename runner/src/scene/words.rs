@@ -59,6 +59,9 @@ words! {
     DensityCorrection {
         /// A constant C_a per particle makes the first density the reference density.
         Constant = "constant",
+        /// The particles are moved until the bare sum is the reference density (see
+        /// [`isc`](crate::isc)).
+        Isc = "isc",
         /// The bare sum over the neighbours.
         None = "none",
     }
