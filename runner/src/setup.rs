@@ -6,7 +6,7 @@ use crate::scene::{self, InitialState, Point, Scene};
 use crate::simulation::{BuildError, ModelKind, Options, Simulation, build};
 use crate::storage;
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
-use loschmidt_core::model::{Central, DensityCorrection, Gravity, StateEquation, Wall};
+use loschmidt_core::model::{AntiClump, Central, DensityCorrection, Gravity, StateEquation, Wall};
 use loschmidt_core::{Fault, Parameters, Scale};
 
 /// Sets up the scene's simulation at step 0.
@@ -21,6 +21,7 @@ pub fn simulation(
     let model = match scene.model {
         scene::Model::Symplectic => ModelKind::Symplectic,
         scene::Model::Standard => ModelKind::Standard,
+        scene::Model::Filtered => ModelKind::Filtered,
     };
     match scene.dimension {
         scene::Dimension::Two => build::<2>(parameters(scene, initial), model, initial, options),
@@ -57,11 +58,17 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             }),
         },
         wall: wall(scene),
+        anti_clump: (scene.fluid.anti_clump_pressure > 0.0).then(|| AntiClump {
+            pressure: scene.fluid.anti_clump_pressure,
+            support_radius: scene.fluid.anti_clump_radius * scene.particle_spacing,
+        }),
+        filter_every: scene.filter_every,
         integrator: integrator(scene.integrator),
         scale: Scale::with_headroom(
             // A drop that is smaller than its kernel must still leave room for the kernel.
             bounds.farthest.max(scene.support_radius()),
-            scene.fluid.sound_speed,
+            // A flow that begins faster than its sound needs room for its speed.
+            scene.fluid.sound_speed.max(fastest(initial)),
             scene.fluid.reference_density,
         ),
         extent: first(bounds.extent),
@@ -90,6 +97,12 @@ fn wall(scene: &Scene) -> Wall {
         // A conservative wall without parameters is a scene without wall particles.
         (scene::WallModel::Conservative | scene::WallModel::None, _) => Wall::None,
     }
+}
+
+/// The largest speed at the start, m/s.
+fn fastest(initial: &InitialState) -> f64 {
+    let speed = |v: &Point| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    initial.fluid_velocity.iter().map(speed).fold(0.0, f64::max)
 }
 
 fn max_buckets(particles: usize) -> usize {

@@ -76,3 +76,7 @@ pub const NEWTON_ORDER: f64 = 1.3;
 /// Relative density of a corrected state in the simulation: 1e-10 of the correction, and what
 /// positions rounded to 2^-46 and terms rounded to 2^-40 add.
 pub const CORRECTED_DENSITY: f64 = 1e-9;
+
+/// A filtered velocity against the average in doubles, m/s: the quanta (2^-44) of up to a hundred
+/// rounded terms over a γ of at least 0.2, and the push of one step of 1e-15 s.
+pub const SHEPARD_AVERAGE: f64 = 1e-10;

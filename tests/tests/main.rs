@@ -9,6 +9,7 @@ mod energies;
 mod entropy;
 mod exact;
 mod faults;
+mod filtered;
 mod integrators;
 mod isc;
 mod kernel;

@@ -1,6 +1,6 @@
 //! Kicks and drifts: how forces and velocities enter the state.
 //!
-//! - kick(c):  v ← v + J, J = R(c dt g) + Σ R(pressure term) + Σ R(wall term)
+//! - kick(c):  v ← v + J, J = R(c dt g) + Σ R(pressure term) + Σ R(repulsion) + Σ R(wall term)
 //! - drift(c): x ← x + R(c dt v)
 //!
 //! dt is the time step, c the entry of the integrator table.
@@ -74,6 +74,19 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             to.same_set = false;
             let walls = self.walls(system, system.scratch.wall_pressure.as_chunks().0);
             exec.sum(&pass, &to, &walls, impulse)?;
+        }
+        if let Some(pass) = self.anti_clump_pass(duration) {
+            let mut to = Targets {
+                position,
+                read: nothing(),
+                id: Ids::Listed(id),
+                same_set: true,
+            };
+            exec.sum(&pass, &to, &self.fluid(system, nothing()), impulse)?;
+            if self.has_dummies(system) {
+                to.same_set = false;
+                exec.sum(&pass, &to, &self.walls(system, nothing()), impulse)?;
+            }
         }
         if let Some(pass) = self.wall_pass(duration) {
             let to = Targets {

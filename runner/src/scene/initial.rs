@@ -1,7 +1,7 @@
 //! From a scene to its particles: lattice nodes inside the regions, with first velocities.
 //!
 //! Every fluid region has its own lattice, which starts half a pitch inside the lower
-//! corner of the region's bounds. Walls continue the lattice of the first fluid region.
+//! corner of the region's bounds (a spiral: in their middle). Walls continue the lattice of the first fluid region.
 //! Particles are ordered region after region in file order, and in a region x fastest,
 //! then y, then z; that order gives the particles their ids. Where the scene asks for it, the
 //! fluid is then moved by the initial state correction (see [`isc`](crate::isc)), and has its first
@@ -194,12 +194,16 @@ impl Scene {
     }
 
     fn own_lattice(&self, region: &Region) -> Option<Lattice> {
+        let kind = region
+            .lattice
+            .filter(|kind| kind.fits(self.dimension))
+            .unwrap_or(LatticeKind::natural(self.dimension));
         Some(Lattice {
-            kind: region
-                .lattice
-                .filter(|kind| kind.fits(self.dimension))
-                .unwrap_or(LatticeKind::natural(self.dimension)),
-            origin: region.shape.corner()?,
+            kind,
+            origin: match kind {
+                LatticeKind::Vogel => region.shape.middle()?,
+                _ => region.shape.corner()?,
+            },
             spacing: self.particle_spacing,
         })
     }
