@@ -58,7 +58,7 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             }),
         },
         wall: wall(scene),
-        anti_clump: (scene.fluid.anti_clump_pressure > 0.0).then(|| AntiClump {
+        anti_clump: (scene.fluid.anti_clump_pressure > 0.0).then_some(AntiClump {
             pressure: scene.fluid.anti_clump_pressure,
             support_radius: scene.fluid.anti_clump_radius * scene.particle_spacing,
         }),
