@@ -3,10 +3,12 @@
 //! [`Serial`] is the readable reference. The runner adds parallel ones; one conformance suite
 //! holds them all to equal bits.
 
+use crate::chain::{Chain, ChainSet, SumsOf, chain_in_turn};
 use crate::fault::{Fault, FaultKind};
 use crate::neighbours::{Cells, Grid};
 use crate::number::Arithmetic;
 use crate::pairs::{PairPass, Sources, gather};
+use crate::state::State;
 
 /// The particles that receive a sum.
 #[derive(Debug)]
@@ -58,15 +60,27 @@ pub trait Executor {
 
     /// Makes the neighbours of the fluid findable after it has moved: sorts it into `cells`, or into
     /// whatever the executor finds them in. With `for_others`, particles of another set (walls) will
-    /// look for the fluid too, in `cells`.
+    /// look for the fluid too, in `cells`. The executor may change the storage order of the state:
+    /// ids travel along, and what the scratch held is of no use afterwards.
     fn locate<A: Arithmetic, const D: usize>(
         &self,
         grid: &Grid<D>,
-        position: &[[A::Length; D]],
+        state: &mut State<'_, A, D>,
         cells: &mut Cells<'_>,
         for_others: bool,
     ) {
         let _ = for_others;
+        cells.sort(grid, state.position);
+    }
+
+    /// Makes particles of the walls findable in `cells`: called before the first sum, and whenever
+    /// they may have moved.
+    fn locate_walls<A: Arithmetic, const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        position: &[[A::Length; D]],
+        cells: &mut Cells<'_>,
+    ) {
         cells.sort(grid, position);
     }
 
@@ -90,6 +104,23 @@ pub trait Executor {
             gather(pass, &to.position[i], &to.read[i], from, skip, sum)
                 .map_err(|kind: FaultKind| Fault::new(kind, to.id.get(i)))
         })
+    }
+
+    /// The two sums of a chain, over a set and itself; `sums` are overwritten.
+    ///
+    /// # Errors
+    /// As [`Executor::sum`], and what the chain finds.
+    fn chain<A, C, const D: usize, const READ: usize, const FIRST: usize, const SECOND: usize>(
+        &self,
+        chain: &C,
+        set: &ChainSet<'_, A, D>,
+        sums: SumsOf<'_, A, C, D, READ, FIRST, SECOND>,
+    ) -> Result<(), Fault>
+    where
+        A: Arithmetic,
+        C: Chain<A, D, READ, FIRST, SECOND>,
+    {
+        chain_in_turn(self, chain, set, sums)
     }
 }
 

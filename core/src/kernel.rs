@@ -46,24 +46,40 @@ impl<R: Real> WendlandC2<R> {
     /// W(r), 1/m^D.
     #[inline(always)]
     pub fn value<L: Lanes<R>>(&self, r: L) -> L {
-        let (q, t) = self.q_t(r);
-        let t2 = t * t;
-        let four = L::splat(R::from_f64(4.0));
-        let one = L::splat(R::from_f64(1.0));
-        L::splat(self.value_factor) * ((t2 * t2) * (one + four * q))
+        self.value_at(self.q(r))
     }
 
     /// W'(r)/r, 1/m^(D+2), never positive.
     #[inline(always)]
     pub fn derivative_over_r<L: Lanes<R>>(&self, r: L) -> L {
-        let (_, t) = self.q_t(r);
-        L::splat(self.derivative_factor) * (t * t * t)
+        self.derivative_over_r_at(self.q(r))
+    }
+
+    /// q = r/h, from which W and W'/r follow without a root or a division.
+    #[inline(always)]
+    pub fn q<L: Lanes<R>>(&self, r: L) -> L {
+        r * r.splat(self.inverse_support)
+    }
+
+    /// W at this q, 1/m^D.
+    #[inline(always)]
+    pub fn value_at<L: Lanes<R>>(&self, q: L) -> L {
+        let t = Self::t(q);
+        let t2 = t * t;
+        let four = q.splat(R::from_f64(4.0));
+        let one = q.splat(R::from_f64(1.0));
+        q.splat(self.value_factor) * ((t2 * t2) * (one + four * q))
+    }
+
+    /// W'/r at this q, 1/m^(D+2), never positive.
+    #[inline(always)]
+    pub fn derivative_over_r_at<L: Lanes<R>>(&self, q: L) -> L {
+        let t = Self::t(q);
+        q.splat(self.derivative_factor) * (t * t * t)
     }
 
     #[inline(always)]
-    fn q_t<L: Lanes<R>>(&self, r: L) -> (L, L) {
-        let q = r * L::splat(self.inverse_support);
-        let t = L::splat(R::from_f64(1.0)) - q;
-        (q, t.positive_part())
+    fn t<L: Lanes<R>>(q: L) -> L {
+        (q.splat(R::from_f64(1.0)) - q).positive_part()
     }
 }

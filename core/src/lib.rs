@@ -4,8 +4,8 @@
 //! and leaves the same bits. Read it in layers, each standing on those before it:
 //!
 //! 1. [`number`]: fixed-point types of the state, the one odd rounding, the floats of a pair term.
-//! 2. [`kernel`], [`neighbours`], [`pairs`]: the smoothing kernel, cells, and sums over pairs as
-//!    integers, which no order can change.
+//! 2. [`kernel`], [`neighbours`], [`pairs`], [`chain`]: the smoothing kernel, cells, and sums over
+//!    pairs as integers, which no order can change.
 //! 3. [`state`]: the fields a run consists of, on memory lent by the caller, and the scratch.
 //! 4. [`model`]: forces; the reversible scheme and the standard one it is compared with.
 //!    [`integrator`]: symmetric tables of kicks and drifts.
@@ -20,6 +20,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+pub mod chain;
 pub mod diagnostics;
 pub mod digest;
 pub mod exact;

@@ -115,8 +115,8 @@ impl Real for f64 {
 pub trait Lanes<R: Real>:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// The same value in all lanes.
-    fn splat(value: R) -> Self;
+    /// `value` in as many lanes as `self` has.
+    fn splat(self, value: R) -> Self;
     /// Square root, correctly rounded.
     fn root(self) -> Self;
     /// x where x > 0, else 0 (also for a NaN).
@@ -125,7 +125,7 @@ pub trait Lanes<R: Real>:
 
 impl<R: Real> Lanes<R> for R {
     #[inline(always)]
-    fn splat(value: R) -> Self {
+    fn splat(self, value: R) -> Self {
         value
     }
     #[inline(always)]

@@ -39,12 +39,15 @@ pub trait PairPass<A: Arithmetic, const D: usize, const READ: usize, const TERM:
     /// A number that no component of a term exceeds in magnitude where no word of either particle
     /// exceeds `largest`; infinite where there is none.
     fn bound(&self, largest: &[A::Real; READ]) -> f64;
+    /// What the term needs of r² = |x_ij|² (length quanta squared); passes that need the same can
+    /// share it.
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L;
     /// The term, in quanta of the sum and not yet rounded, for x_ij = x_i - x_j (length quanta),
-    /// r² = |x_ij|² and the words of i and j in quanta.
+    /// the argument of |x_ij|² and the words of i and j in quanta.
     fn term<L: Lanes<A::Real>>(
         &self,
         x_ij: &[L; D],
-        r2: L,
+        argument: L,
         i: &[L; READ],
         j: &[L; READ],
     ) -> [L; TERM];
@@ -117,25 +120,82 @@ where
     A: Arithmetic,
     P: PairPass<A, D, READ, TERM>,
 {
-    let reach_squared = pass.reach_squared();
-    let skip = skip.map_or(u32::MAX, |i| i as u32);
-    let read_i = read(read_i);
-    let mut neighbours = 0u32;
-    let mut result = Ok(());
-    from.cells.around(from.grid, x_i, |run| {
-        for &j in run {
-            let (x_ij, r2) = separation::<A, D>(x_i, &from.position[j as usize]);
-            if r2 < reach_squared && j != skip {
-                neighbours += 1;
-                let read_j = read(&from.read[j as usize]);
-                if !accumulate(sum, pass.term(&x_ij, r2, &read_i, &read_j)) {
-                    result = Err(FaultKind::TermRange);
-                }
+    let mut gathering = Gathering::new(pass, x_i, read_i, from, skip, sum);
+    from.cells.around(from.grid, x_i, |run| gathering.add(run));
+    gathering.end()
+}
+
+/// One particle's sum while its candidates come in.
+#[derive(Debug)]
+pub struct Gathering<'a, A, P, const D: usize, const READ: usize, const TERM: usize>
+where
+    A: Arithmetic,
+    P: PairPass<A, D, READ, TERM>,
+{
+    pass: &'a P,
+    x_i: &'a [A::Length; D],
+    read_i: [A::Real; READ],
+    from: &'a Sources<'a, A, P::Word, D, READ>,
+    skip: u32,
+    sum: &'a mut [P::Sum; TERM],
+    neighbours: u32,
+    in_range: bool,
+}
+
+impl<'a, A, P, const D: usize, const READ: usize, const TERM: usize>
+    Gathering<'a, A, P, D, READ, TERM>
+where
+    A: Arithmetic,
+    P: PairPass<A, D, READ, TERM>,
+{
+    /// See [`gather`].
+    #[inline]
+    pub fn new(
+        pass: &'a P,
+        x_i: &'a [A::Length; D],
+        read_i: &[P::Word; READ],
+        from: &'a Sources<'a, A, P::Word, D, READ>,
+        skip: Option<usize>,
+        sum: &'a mut [P::Sum; TERM],
+    ) -> Self {
+        Self {
+            pass,
+            x_i,
+            read_i: read(read_i),
+            from,
+            skip: skip.map_or(u32::MAX, |i| i as u32),
+            sum,
+            neighbours: 0,
+            in_range: true,
+        }
+    }
+
+    /// Adds the terms of those candidates that are within reach.
+    #[inline]
+    pub fn add(&mut self, candidates: &[u32]) {
+        let reach_squared = self.pass.reach_squared();
+        for &j in candidates {
+            let (x_ij, r2) = separation::<A, D>(self.x_i, &self.from.position[j as usize]);
+            if r2 < reach_squared && j != self.skip {
+                self.neighbours += 1;
+                let read_j = read(&self.from.read[j as usize]);
+                let argument = self.pass.argument(r2);
+                let term = self.pass.term(&x_ij, argument, &self.read_i, &read_j);
+                self.in_range &= accumulate(self.sum, term);
             }
         }
-    });
-    if neighbours > MAX_NEIGHBOURS {
-        return Err(FaultKind::Crowded);
     }
-    result
+
+    /// # Errors
+    /// See [`gather`].
+    #[inline]
+    pub fn end(self) -> Result<(), FaultKind> {
+        if self.neighbours > MAX_NEIGHBOURS {
+            Err(FaultKind::Crowded)
+        } else if self.in_range {
+            Ok(())
+        } else {
+            Err(FaultKind::TermRange)
+        }
+    }
 }

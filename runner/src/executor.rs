@@ -109,7 +109,8 @@ where
         for &j in list {
             let (x_ij, r2) = separation::<A, D>(x_i, &from.position[j as usize]);
             let read_j = read(&from.read[j as usize]);
-            if !accumulate(sum, pass.term(&x_ij, r2, &read_i, &read_j)) {
+            let argument = pass.argument(r2);
+            if !accumulate(sum, pass.term(&x_ij, argument, &read_i, &read_j)) {
                 result = Err(FaultKind::TermRange);
             }
         }

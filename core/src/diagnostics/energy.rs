@@ -6,10 +6,11 @@
 //! - gravitational -Σ m g·x, zero at the origin, minus Σ m GM/(|x|² + s²)^(1/2)
 //! - wall          Σ m E (s - 1)²/4 (footnote 3: E per mass), or the dummies' m ε(ρ)
 
+use crate::chain::nothing;
 use crate::exact::ExactSum;
 use crate::executor::Ids;
 use crate::fault::{Fault, FaultKind};
-use crate::model::{Forces, nothing};
+use crate::model::Forces;
 use crate::number::{Arithmetic, Quantity, Real};
 use crate::pairs::{gather, separation};
 use crate::state::System;

@@ -5,6 +5,7 @@ use super::passes::{
     AntiClumpEnergyPass, AntiClumpPass, ContinuityPass, DensityPass, FilterPass, PressurePass,
     WallEnergyPass, WallGeometry, WallPass,
 };
+use crate::chain::nothing;
 use crate::executor::{Executor, Ids, Targets};
 use crate::fault::{Fault, FaultKind};
 use crate::kernel::WendlandC2;
@@ -12,11 +13,6 @@ use crate::neighbours::Grid;
 use crate::number::{Arithmetic, Quantity, Real};
 use crate::pairs::Sources;
 use crate::state::System;
-
-/// As many empty arrays as anyone needs: what a pass reads that needs no more than positions.
-pub(crate) fn nothing<R>() -> &'static [[R; 0]] {
-    const { &[const { [] }; u32::MAX as usize] }
-}
 
 /// Forces of weakly compressible SPH in D dimensions, ready to be evaluated.
 #[derive(Clone, Debug)]
@@ -241,9 +237,11 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             scratch,
             progress,
         } = system;
-        exec.locate::<A, D>(&self.grid, state.position, &mut scratch.cells, for_others);
+        exec.locate::<A, D>(&self.grid, state, &mut scratch.cells, for_others);
+        // The storage order may be another one now.
+        progress.impulse_for = None;
         if !progress.walls_sorted {
-            scratch.wall_cells.sort(&self.wall_grid, walls.position);
+            exec.locate_walls::<A, D>(&self.wall_grid, walls.position, &mut scratch.wall_cells);
             progress.walls_sorted = true;
         }
     }
@@ -371,6 +369,10 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             }
             DensityCorrection::None => A::Density::ZERO,
         }
+    }
+    /// m W(0), in density quanta.
+    pub(super) fn own_density(&self) -> A::Density {
+        self.own_density
     }
     /// Centre of the attracting mass, in length quanta.
     pub(crate) fn centre(&self) -> &[A::Length; D] {

@@ -5,20 +5,114 @@
 //!
 //! dt is the time step, c the entry of the integrator table.
 
-use super::forces::{Forces, nothing};
+use super::forces::Forces;
+use super::passes::{DensityPass, PressurePass};
+use super::state_equation::StateEquation;
+use crate::chain::{Chain, ChainSet, ChainSums, nothing};
 use crate::executor::{Executor, Ids, Targets};
 use crate::fault::{Fault, FaultKind};
 use crate::number::{Arithmetic, Quantity, Real};
 use crate::state::{State, System};
 
+/// -κ m p/ρ² as a function of ρ/ρ0, in the units of [`PressurePass`].
+#[derive(Clone, Copy, Debug)]
+struct PressureFactor<R> {
+    factor: R,
+    state_equation: StateEquation,
+}
+
+impl<R: Real> PressureFactor<R> {
+    #[inline]
+    fn at(&self, relative_density: R, id: u64) -> Result<R, Fault> {
+        if relative_density > R::from_f64(0.0) {
+            let equation = self.state_equation;
+            Ok(self.factor * equation.pressure_over_density_squared(relative_density))
+        } else {
+            Err(Fault::new(FaultKind::DensityNotPositive, id))
+        }
+    }
+}
+
+/// ρ_i = Σ m W + C_a, and with it the impulses of gravity and pressure.
+struct DensitiesAndImpulses<'a, A: Arithmetic, const D: usize> {
+    forces: &'a Forces<A, D>,
+    first: DensityPass<A::Real>,
+    second: PressurePass<A::Real>,
+    pressure: PressureFactor<A::Real>,
+    uniform: Option<[A::Speed; D]>,
+    duration: f64,
+    id: &'a [u64],
+    position: &'a [[A::Length; D]],
+    constant: &'a [A::Density],
+}
+
+impl<A: Arithmetic, const D: usize> Chain<A, D, 1, 1, D> for DensitiesAndImpulses<'_, A, D> {
+    type FirstSum = A::Density;
+    type Word = A::Real;
+    type SecondSum = A::Speed;
+    type First = DensityPass<A::Real>;
+    type Second = PressurePass<A::Real>;
+
+    fn first(&self) -> &Self::First {
+        &self.first
+    }
+    fn second(&self) -> &Self::Second {
+        &self.second
+    }
+    #[inline]
+    fn start(&self, _: usize) -> [A::Density; 1] {
+        [self.forces.own_density()]
+    }
+    #[inline]
+    fn finish(&self, i: usize, [sum]: [A::Density; 1]) -> [A::Density; 1] {
+        [sum.plus(self.constant[i])]
+    }
+    #[inline]
+    fn between(&self, i: usize, [density]: &[A::Density; 1]) -> Result<[A::Real; 1], Fault> {
+        let relative = self.forces.relative_density(*density);
+        Ok([self.pressure.at(relative, self.id[i])?])
+    }
+    #[inline]
+    fn resume(&self, i: usize) -> Result<[A::Speed; D], Fault> {
+        self.forces
+            .gravity(self.uniform, &self.position[i], self.duration)
+            .ok_or_else(|| Fault::new(FaultKind::TermRange, self.id[i]))
+    }
+}
+
 impl<A: Arithmetic, const D: usize> Forces<A, D> {
-    /// Gravity in a kick of `duration` seconds at this position, in speed quanta.
-    fn gravity(&self, x: &[A::Length; D], duration: f64) -> Option<[A::Speed; D]> {
+    /// Uniform gravity in a kick of `duration` seconds, in speed quanta; `None` out of range.
+    fn uniform_gravity(&self, duration: f64) -> Option<[A::Speed; D]> {
         let s = self.parameters().scale;
         let mut impulse = [A::Speed::ZERO; D];
         for (i, g) in impulse.iter_mut().zip(self.parameters().gravity.uniform) {
             *i = i.add_rounded(duration * g / s.speed_quantum())?;
         }
+        Some(impulse)
+    }
+
+    /// The uniform one and, where there is one, the attraction of a mass at this position.
+    #[inline]
+    fn gravity(
+        &self,
+        uniform: Option<[A::Speed; D]>,
+        x: &[A::Length; D],
+        duration: f64,
+    ) -> Option<[A::Speed; D]> {
+        if self.parameters().gravity.central.is_none() {
+            return uniform;
+        }
+        self.central_gravity(uniform?, x, duration)
+    }
+
+    /// Adds the attraction of a mass.
+    fn central_gravity(
+        &self,
+        mut impulse: [A::Speed; D],
+        x: &[A::Length; D],
+        duration: f64,
+    ) -> Option<[A::Speed; D]> {
+        let s = self.parameters().scale;
         if let Some(central) = &self.parameters().gravity.central {
             let soft = central.softening / s.length_quantum();
             let (x_ic, r2) = crate::pairs::separation::<A, D>(x, self.centre());
@@ -55,9 +149,10 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         impulse: &mut [[A::Speed; D]],
     ) -> Result<(), Fault> {
         let State { id, position, .. } = &system.state;
+        let uniform = self.uniform_gravity(duration);
         exec.for_each(impulse, |i, out| {
             *out = self
-                .gravity(&position[i], duration)
+                .gravity(uniform, &position[i], duration)
                 .ok_or_else(|| Fault::new(FaultKind::TermRange, id[i]))?;
             Ok(())
         })?;
@@ -75,28 +170,106 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             let walls = self.walls(system, system.scratch.wall_pressure.as_chunks().0);
             exec.sum(&pass, &to, &walls, impulse)?;
         }
-        if let Some(pass) = self.anti_clump_pass(duration) {
-            let mut to = Targets {
-                position,
-                read: nothing(),
-                id: Ids::Listed(id),
-                same_set: true,
-            };
-            exec.sum(&pass, &to, &self.fluid(system, nothing()), impulse)?;
-            if self.has_dummies(system) {
-                to.same_set = false;
-                exec.sum(&pass, &to, &self.walls(system, nothing()), impulse)?;
-            }
-        }
-        if let Some(pass) = self.wall_pass(duration) {
-            let to = Targets {
-                position,
-                read: nothing(),
-                id: Ids::Listed(id),
-                same_set: false,
-            };
+        self.add_short_impulses(system, exec, duration, impulse)
+    }
+
+    /// Adds the impulses of very near particles, if they repel each other.
+    fn add_anti_clump_impulses<E: Executor>(
+        &self,
+        system: &System<'_, A, D>,
+        exec: &E,
+        duration: f64,
+        impulse: &mut [[A::Speed; D]],
+    ) -> Result<(), Fault> {
+        let Some(pass) = self.anti_clump_pass(duration) else {
+            return Ok(());
+        };
+        let mut to = Targets {
+            position: &*system.state.position,
+            read: nothing(),
+            id: Ids::Listed(system.state.id),
+            same_set: true,
+        };
+        exec.sum(&pass, &to, &self.fluid(system, nothing()), impulse)?;
+        if self.has_dummies(system) {
+            to.same_set = false;
             exec.sum(&pass, &to, &self.walls(system, nothing()), impulse)?;
         }
+        Ok(())
+    }
+
+    /// Adds the impulses of the conservative wall, if there is one, and of very near particles.
+    fn add_short_impulses<E: Executor>(
+        &self,
+        system: &System<'_, A, D>,
+        exec: &E,
+        duration: f64,
+        impulse: &mut [[A::Speed; D]],
+    ) -> Result<(), Fault> {
+        self.add_anti_clump_impulses(system, exec, duration, impulse)?;
+        let Some(pass) = self.wall_pass(duration) else {
+            return Ok(());
+        };
+        let to = Targets {
+            position: &*system.state.position,
+            read: nothing(),
+            id: Ids::Listed(system.state.id),
+            same_set: false,
+        };
+        exec.sum(&pass, &to, &self.walls(system, nothing()), impulse)
+    }
+
+    /// Densities at these positions and the impulses of a kick of `c` time steps, in one go; not
+    /// for dummy walls, whose densities stand in between.
+    pub(super) fn densities_and_impulses<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        c: f64,
+    ) -> Result<(), Fault> {
+        let duration = c * self.parameters().time_step;
+        let scratch = &mut system.scratch;
+        let density = core::mem::take(&mut scratch.density);
+        let pressure = core::mem::take(&mut scratch.pressure);
+        let impulse = core::mem::take(&mut scratch.impulse);
+        let State {
+            id,
+            position,
+            density: constant,
+            ..
+        } = &system.state;
+        let chain = DensitiesAndImpulses {
+            forces: self,
+            first: self.density_pass(),
+            second: self.pressure_pass(),
+            pressure: self.pressure_factor(duration),
+            uniform: self.uniform_gravity(duration),
+            duration,
+            id,
+            position,
+            constant,
+        };
+        let set = ChainSet {
+            grid: self.grid(),
+            cells: system.scratch.cells.view(),
+            position,
+            id,
+        };
+        let sums = ChainSums {
+            first: density.as_chunks_mut().0,
+            words: pressure.as_chunks_mut().0,
+            second: &mut *impulse,
+        };
+        let result = exec
+            .chain(&chain, &set, sums)
+            .and_then(|()| self.add_short_impulses(system, exec, duration, impulse));
+        let scratch = &mut system.scratch;
+        scratch.density = density;
+        scratch.pressure = pressure;
+        scratch.impulse = impulse;
+        result?;
+        system.progress.density_current = true;
+        system.progress.impulse_for = Some(c.to_bits());
         Ok(())
     }
 
@@ -107,18 +280,8 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         exec: &E,
         duration: f64,
     ) -> Result<(), Fault> {
-        let p = self.parameters();
-        let units = p.scale.length_quantum() / p.scale.speed_quantum();
-        let factor = (duration * p.mass) * (p.sound_speed * p.sound_speed / p.reference_density);
-        let factor = A::Real::from_f64(-(factor * units));
-        let of = |density: A::Density, id: u64| {
-            let x = self.relative_density(density);
-            if x > A::Real::from_f64(0.0) {
-                Ok(factor * p.state_equation.pressure_over_density_squared(x))
-            } else {
-                Err(Fault::new(FaultKind::DensityNotPositive, id))
-            }
-        };
+        let of = self.pressure_factor(duration);
+        let of = |density, id| of.at(self.relative_density(density), id);
         let dummies = self.has_dummies(system);
         let n = system.state.len() as u64;
         let System { state, scratch, .. } = system;
@@ -135,6 +298,16 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             })?;
         }
         Ok(())
+    }
+
+    fn pressure_factor(&self, duration: f64) -> PressureFactor<A::Real> {
+        let p = self.parameters();
+        let units = p.scale.length_quantum() / p.scale.speed_quantum();
+        let factor = (duration * p.mass) * (p.sound_speed * p.sound_speed / p.reference_density);
+        PressureFactor {
+            factor: A::Real::from_f64(-(factor * units)),
+            state_equation: p.state_equation,
+        }
     }
 
     /// v ← v + R(c dt a), from the densities in the scratch. Impulses are kept until a drift: two

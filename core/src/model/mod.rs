@@ -17,7 +17,6 @@ mod symplectic;
 
 pub use filtered::Filtered;
 pub use forces::Forces;
-pub(crate) use forces::nothing;
 pub use parameters::{
     AntiClump, Central, DensityCorrection, Gravity, Parameters, SetupError, Wall,
 };

@@ -20,6 +20,17 @@ use crate::kernel::WendlandC2;
 use crate::number::{Arithmetic, Lanes, Real};
 use crate::pairs::{PairPass, Parity};
 
+/// factor · x, by components.
+#[inline(always)]
+fn scaled<L: Copy + core::ops::Mul<Output = L>, const D: usize>(x: &[L; D], factor: L) -> [L; D] {
+    // A loop, which the compiler takes apart in any number of lanes; a closure it may leave whole.
+    let mut out = *x;
+    for x in &mut out {
+        *x = factor * *x;
+    }
+    out
+}
+
 /// Σ_j m W(r_ij), without the particle itself.
 #[derive(Clone, Copy, Debug)]
 pub struct DensityPass<R> {
@@ -42,8 +53,12 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, 1> for DensityPass<A::Real
         (self.kernel.value(zero) * self.mass).to_f64().abs()
     }
     #[inline(always)]
-    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
-        [self.kernel.value(r2.root()) * L::splat(self.mass)]
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], q: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
+        [self.kernel.value_at(q) * q.splat(self.mass)]
     }
 }
 
@@ -69,9 +84,12 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 1, D> for PressurePass<A::Rea
         2.001 * largest[0].to_f64() * slope.abs()
     }
     #[inline(always)]
-    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, i: &[L; 1], j: &[L; 1]) -> [L; D] {
-        let factor = (i[0] + j[0]) * self.kernel.derivative_over_r(r2.root());
-        x_ij.map(|x| factor * x)
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], q: L, i: &[L; 1], j: &[L; 1]) -> [L; D] {
+        scaled(x_ij, (i[0] + j[0]) * self.kernel.derivative_over_r_at(q))
     }
 }
 
@@ -99,13 +117,17 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, D, 1> for ContinuityPass<A::R
         1.001 * speed * slope.abs() * self.factor.to_f64().abs()
     }
     #[inline(always)]
-    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, i: &[L; D], j: &[L; D]) -> [L; 1] {
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], q: L, i: &[L; D], j: &[L; D]) -> [L; 1] {
         // Velocities stay below 2^51 quanta: they and their differences are exact.
         let mut dot = (i[0] - j[0]) * x_ij[0];
         for d in 1..D {
             dot = dot + (i[d] - j[d]) * x_ij[d];
         }
-        [(dot * self.kernel.derivative_over_r(r2.root())) * L::splat(self.factor)]
+        [(dot * self.kernel.derivative_over_r_at(q)) * q.splat(self.factor)]
     }
 }
 
@@ -133,9 +155,15 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, D> for AntiClumpPass<A::Re
         1.001 * slope.abs() * self.factor.to_f64().abs()
     }
     #[inline(always)]
-    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; D] {
-        let factor = L::splat(self.factor) * self.kernel.derivative_over_r(r2.root());
-        x_ij.map(|x| factor * x)
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], q: L, _: &[L; 0], _: &[L; 0]) -> [L; D] {
+        scaled(
+            x_ij,
+            q.splat(self.factor) * self.kernel.derivative_over_r_at(q),
+        )
     }
 }
 
@@ -161,8 +189,12 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, 1> for AntiClumpEnergyPass
         f64::INFINITY
     }
     #[inline(always)]
-    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
-        [self.kernel.value(r2.root()) * L::splat(self.factor)]
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], q: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
+        [self.kernel.value_at(q) * q.splat(self.factor)]
     }
 }
 
@@ -190,9 +222,16 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, D, D> for FilterPass<A::Real>
         1.001 * speed * weight
     }
     #[inline(always)]
-    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], r2: L, i: &[L; D], j: &[L; D]) -> [L; D] {
-        let weight = self.kernel.value(r2.root()) * L::splat(self.volume);
-        core::array::from_fn(|d| weight * (j[d] - i[d]))
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], q: L, i: &[L; D], j: &[L; D]) -> [L; D] {
+        let mut difference = *j;
+        for d in 0..D {
+            difference[d] = j[d] - i[d];
+        }
+        scaled(&difference, self.kernel.value_at(q) * q.splat(self.volume))
     }
 }
 
@@ -209,8 +248,8 @@ impl<R: Real> WallGeometry<R> {
     /// s and r² + ε².
     #[inline(always)]
     fn s<L: Lanes<R>>(&self, r2: L) -> (L, L) {
-        let softened = r2 + L::splat(self.softening_squared);
-        let s = L::splat(self.radius_squared + self.softening_squared) / softened;
+        let softened = r2 + r2.splat(self.softening_squared);
+        let s = r2.splat(self.radius_squared + self.softening_squared) / softened;
         (s, softened)
     }
 }
@@ -235,10 +274,13 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, D> for WallPass<A::Real> {
         f64::INFINITY
     }
     #[inline(always)]
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        r2
+    }
+    #[inline(always)]
     fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; D] {
         let (s, softened) = self.geometry.s(r2);
-        let factor = ((s * s - s) / softened) * L::splat(self.factor);
-        x_ij.map(|x| factor * x)
+        scaled(x_ij, ((s * s - s) / softened) * r2.splat(self.factor))
     }
 }
 
@@ -260,9 +302,13 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, 1> for WallEnergyPass<A::R
         f64::INFINITY
     }
     #[inline(always)]
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        r2
+    }
+    #[inline(always)]
     fn term<L: Lanes<A::Real>>(&self, _: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
         let (s, _) = self.geometry.s(r2);
-        let y = s - L::splat(A::Real::from_f64(1.0));
-        [L::splat(A::Real::from_f64(0.25)) * (y * y)]
+        let y = s - r2.splat(A::Real::from_f64(1.0));
+        [r2.splat(A::Real::from_f64(0.25)) * (y * y)]
     }
 }

@@ -20,6 +20,20 @@ pub struct Symplectic<A: Arithmetic, const D: usize> {
 }
 
 impl<A: Arithmetic, const D: usize> Symplectic<A, D> {
+    /// Densities for a kick of `c` time steps, and where it can be had in one go its impulses.
+    fn update_for_kick<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        c: f64,
+    ) -> Result<(), Fault> {
+        if system.progress.density_current || self.forces.has_dummies(system) {
+            return self.update_density(system, exec);
+        }
+        self.forces.sort(system, exec);
+        self.forces.densities_and_impulses(system, exec, c)
+    }
+
     fn update_wall_density<E: Executor>(
         &self,
         system: &mut System<'_, A, D>,
@@ -136,7 +150,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
             for stage in self.forces.parameters().integrator.stages {
                 match *stage {
                     Stage::Kick(c) => {
-                        self.update_density(system, exec)?;
+                        self.update_for_kick(system, exec, c)?;
                         self.forces.kick(system, exec, c)?;
                     }
                     Stage::Drift(c) => self.forces.drift(system, exec, c)?,

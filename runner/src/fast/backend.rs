@@ -1,13 +1,15 @@
-//! Which instructions the sweep is compiled for: chosen when the program runs.
+//! Which instructions the sweeps are compiled for: chosen when the program runs.
+
+use super::lanes::{Plain, Quad};
 
 /// An instruction set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backend {
-    /// x86-64-v4: 8 doubles at once.
+    /// x86-64-v4.
     Avx512,
-    /// x86-64-v3: 4 doubles at once.
+    /// x86-64-v3.
     Avx2,
-    /// What every processor of this architecture has: 2 doubles at once on x86-64.
+    /// What every processor of this architecture has: SSE2 on x86-64.
     Baseline,
 }
 
@@ -50,14 +52,14 @@ impl Backend {
 
     /// Runs the work compiled for this instruction set.
     #[inline(always)]
-    pub(super) fn run(self, work: impl Work) {
+    pub(super) fn run<W: Work>(self, work: W) -> W::Output {
         match self {
             #[cfg(target_arch = "x86_64")]
             Self::Avx512 => {
                 if let Some(simd) = pulp::x86::V4::try_new() {
                     return simd.vectorize(
                         #[inline(always)]
-                        || work.run::<8>(),
+                        || work.run(simd),
                     );
                 }
             }
@@ -66,17 +68,19 @@ impl Backend {
                 if let Some(simd) = pulp::x86::V3::try_new() {
                     return simd.vectorize(
                         #[inline(always)]
-                        || work.run::<4>(),
+                        || work.run(simd),
                     );
                 }
             }
             _ => {}
         }
-        work.run::<2>();
+        work.run(Plain)
     }
 }
 
-/// Something that is done in rows of L.
+/// Something that is done four numbers at a time. Everything that it calls on the way must be
+/// `inline(always)`, or it is compiled for the baseline.
 pub(super) trait Work {
-    fn run<const L: usize>(self);
+    type Output;
+    fn run<Q: Quad>(self, simd: Q) -> Self::Output;
 }

@@ -1,115 +1,116 @@
 //! The fast executor: the core's sums in vector instructions, each pair once.
 //!
-//! `strips` lays the particles out so that neighbours are contiguous, `sweep` walks the pairs with
-//! the model's own pair terms written for rows, [`Backend`] chooses the instructions at run time.
-//! Parts of the strips go to threads, each with sums of its own, which are added afterwards.
+//! `layout` sorts the state into strips so that neighbours are contiguous and lists who can meet
+//! whom, `sweep` walks the pairs with the model's own pair terms written for rows of four, `chain`
+//! does two sums in one go, `walls` keeps the few particles that are near walls, [`Backend`] chooses
+//! the instructions at run time. Parts of the strips go to threads, each with sums of its own, which
+//! are added afterwards.
 //!
-//! A sweep does not look at single terms for their range; instead, before it starts, the pass
-//! bounds all of them from the largest words ([`PairPass::bound`]). Where the bound does not hold, or
-//! some particle has more candidates than an integer sum is guaranteed to hold, the sum is taken by
-//! the plain traversal of the core, which decides exactly and names the particle. The same for
-//! sums over walls and for floating-point states.
+//! A sweep does not look at single terms for their range; instead the pass bounds all of them from
+//! the largest words ([`PairPass::bound`]). Where the bound does not hold, or some particle has more
+//! candidates than an integer sum is guaranteed to hold, the sum is taken by the plain traversal of
+//! the core, which decides exactly and names the particle. The same for floating-point states.
 
 mod backend;
+mod chain;
 mod lanes;
-mod strips;
+mod layout;
+mod meets;
 mod sweep;
+mod walls;
 
 pub use backend::Backend;
 
 use crate::executor::Rayon;
+use chain::{Arguments, add_received};
+use lanes::{ROW, Reals};
+use layout::{Crew, Layout};
+use loschmidt_core::chain::{Chain, ChainSet, SumsOf, chain_in_turn};
 use loschmidt_core::executor::Targets;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
 use loschmidt_core::neighbours::{Cells, Grid};
-use loschmidt_core::number::{Accumulate, Quantity, Real};
+use loschmidt_core::number::{Quantity, Real};
 use loschmidt_core::pairs::{PairPass, Sources};
+use loschmidt_core::state::State;
 use loschmidt_core::{Arithmetic, Executor, Fault};
-use rayon::prelude::*;
+use std::any::TypeId;
 use std::marker::PhantomData;
 use std::num::NonZeroUsize;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use strips::{NOBODY, Strips};
-use sweep::{Part, Sweep};
+use sweep::{Sums, Sweep};
+use walls::NearWalls;
 
 /// Vectorised half-pair sweeps on strips.
 #[derive(Debug)]
 pub struct Fast {
     rayon: Rayon,
-    threads: usize,
-    backend: Backend,
+    crew: Crew,
     memory: Mutex<Memory>,
 }
 
 /// What outlives a step.
 #[derive(Debug, Default)]
 struct Memory {
-    strips: Strips,
-    read: [Vec<f64>; 3],
-    parts: Vec<Part>,
-    /// Which positions the strips hold.
-    located: (usize, usize),
+    layout: Layout,
+    /// What a pass reads, by row.
+    words: Vec<Reals>,
+    /// First and second sums of each part.
+    sums: Vec<[Sums; 2]>,
+    /// Arguments of the terms of three strips, for each part.
+    arguments: Vec<Arguments>,
+    walls: NearWalls,
 }
 
-/// Fewest particles worth a thread of their own.
-const PARTICLES_PER_THREAD: usize = 2000;
+/// Fewest items for which threads are woken.
+const ITEMS_PER_THREAD: usize = 4000;
 /// Terms of this magnitude and more, in quanta, are out of range: 2^51.
 const LIMIT: f64 = (1u64 << 51) as f64;
 
-impl Memory {
-    /// Divides the strips among `parts` parts of about as many particles.
-    fn divide<const D: usize>(&mut self, parts: usize) {
-        let strips = &self.strips;
-        let (count, slots) = (strips.strips(), strips.slots());
-        self.parts.resize_with(parts, Part::default);
-        let mut first = 0;
-        for (p, part) in self.parts.iter_mut().enumerate() {
-            let goal = slots * (p + 1) / parts;
-            let mut last = first;
-            while last < count && (p + 1 == parts || strips.slots_of(first..last).end < goal) {
-                last += 1;
-            }
-            part.strips = first..last;
-            // The strips that receive reach beyond those that give.
-            let beyond = (last + strips.farthest_forward::<D>()).min(count);
-            part.slots = strips.slots_of(first..if first == last { last } else { beyond });
-            first = last;
-        }
-    }
-
-    /// Copies what the pass reads into slots; returns the largest magnitudes.
-    fn load<Q: Quantity, const READ: usize>(&mut self, words: &[[Q; READ]]) -> [f64; READ] {
-        let mut largest = [0.0; READ];
-        for k in 0..READ {
-            let column = &mut self.read[k];
-            column.clear();
-            column.extend(self.strips.order.iter().map(|&place| match place {
-                NOBODY => 0.0,
-                place => words[place as usize][k].quanta::<f64>(),
-            }));
-            // Written so that a NaN stays.
-            largest[k] = column.iter().fold(0.0f64, |l, w| {
-                if w.abs() <= l || l.is_nan() {
-                    l
-                } else {
-                    w.abs()
-                }
-            });
-        }
-        largest
-    }
-
-    /// The sum of component k that a slot has received, over all parts.
-    fn received(&self, k: usize, slot: usize) -> i64 {
-        let parts = self.parts.iter().filter(|part| part.slots.contains(&slot));
-        parts.fold(0i64, |sum, part| {
-            sum.wrapping_add(part.sums[k][slot - part.slots.start])
-        })
-    }
+/// The larger magnitude, and a NaN before all: as integers the bits of magnitudes are in order.
+#[inline(always)]
+fn larger(largest: f64, word: f64) -> f64 {
+    f64::from_bits(largest.to_bits().max(word.abs().to_bits()))
 }
 
-/// Where a slice of positions is, to know it again.
-fn key<T>(slice: &[T]) -> (usize, usize) {
-    (slice.as_ptr() as usize, slice.len())
+impl Memory {
+    /// Copies what the pass reads into rows; returns the largest magnitudes.
+    fn load<Q: Quantity, const READ: usize>(&mut self, words: &[[Q; READ]]) -> [f64; READ] {
+        if READ == 0 {
+            return [0.0; READ];
+        }
+        let layout = &self.layout;
+        self.words
+            .resize(layout.all_rows() * READ, Reals::default());
+        let parts = layout.split_rows(&mut self.words, READ);
+        let largest = layout.for_parts(parts, |strips, rows| {
+            let mut largest = [0.0; READ];
+            let first_row = layout.rows_of(&strips).start;
+            for strip in &layout.strips[strips] {
+                let rows = &mut rows[(strip.rows().start - first_row) * READ..];
+                let rows = &mut rows[..strip.rows().len() * READ];
+                // Nobody is in the last slots, and nothing is read of them.
+                if let Some(last) = rows.len().checked_sub(READ) {
+                    rows[last..].fill(Reals::default());
+                }
+                let places = words[strip.places()].chunks(ROW);
+                for (row, places) in rows.chunks_exact_mut(READ).zip(places) {
+                    for (l, place) in places.iter().enumerate() {
+                        for k in 0..READ {
+                            row[k].0[l] = place[k].quanta();
+                            largest[k] = larger(largest[k], row[k].0[l]);
+                        }
+                    }
+                }
+            }
+            largest
+        });
+        largest.into_iter().fold([0.0; READ], |mut all, part| {
+            for (all, part) in all.iter_mut().zip(part) {
+                *all = larger(*all, part);
+            }
+            all
+        })
+    }
 }
 
 impl Fast {
@@ -123,8 +124,10 @@ impl Fast {
     ) -> Result<Self, rayon::ThreadPoolBuildError> {
         Ok(Self {
             rayon: Rayon::new(threads)?,
-            threads: threads.get(),
-            backend,
+            crew: Crew {
+                threads: threads.get(),
+                backend,
+            },
             memory: Mutex::default(),
         })
     }
@@ -168,6 +171,11 @@ impl Fast {
     }
 }
 
+/// True for the arithmetic that the sweeps are written for.
+fn is_swept<A: Arithmetic>() -> bool {
+    A::EXACT && TypeId::of::<A::Real>() == TypeId::of::<f64>()
+}
+
 impl Executor for Fast {
     fn name(&self) -> &'static str {
         "fast"
@@ -178,7 +186,7 @@ impl Executor for Fast {
         items: &mut [T],
         f: impl Fn(usize, &mut T) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault> {
-        if self.threads == 1 || items.len() < 2 * PARTICLES_PER_THREAD {
+        if self.crew.threads == 1 || items.len() < 2 * ITEMS_PER_THREAD {
             loschmidt_core::Serial.for_each(items, f)
         } else {
             self.rayon.for_each(items, f)
@@ -188,20 +196,27 @@ impl Executor for Fast {
     fn locate<A: Arithmetic, const D: usize>(
         &self,
         grid: &Grid<D>,
-        position: &[[A::Length; D]],
+        state: &mut State<'_, A, D>,
         cells: &mut Cells<'_>,
         for_others: bool,
     ) {
-        if for_others || !A::EXACT {
-            cells.sort(grid, position);
+        if is_swept::<A>() {
+            let reach = grid.reach() as f64;
+            self.memory().layout.update(reach, state, self.crew);
         }
-        if A::EXACT {
-            let mut memory = self.memory();
-            memory.strips.update::<A, D>(grid.reach() as f64, position);
-            let parts = (position.len() / PARTICLES_PER_THREAD).clamp(1, self.threads);
-            memory.divide::<D>(parts);
-            memory.located = key(position);
+        if for_others || !is_swept::<A>() {
+            cells.sort(grid, state.position);
         }
+    }
+
+    fn locate_walls<A: Arithmetic, const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        position: &[[A::Length; D]],
+        cells: &mut Cells<'_>,
+    ) {
+        cells.sort(grid, position);
+        self.memory().walls.forget();
     }
 
     fn sum<A, P, const D: usize, const READ: usize, const TERM: usize>(
@@ -216,49 +231,72 @@ impl Executor for Fast {
         P: PairPass<A, D, READ, TERM>,
     {
         let mut memory = self.memory();
-        if !A::EXACT || !to.same_set || memory.located != key(from.position) {
-            drop(memory);
+        let memory = &mut *memory;
+        if !is_swept::<A>() || !memory.layout.is_of(to.position) {
             return self.rayon.sum(pass, to, from, out);
         }
+        if !to.same_set {
+            let Memory { layout, walls, .. } = memory;
+            return walls.sum(layout, pass, to, from, out);
+        }
         let largest = memory.load(to.read);
-        let bound = pass.bound(&largest.map(A::Real::from_f64));
-        let in_range = bound < LIMIT;
-        if !in_range || memory.strips.most_candidates > MAX_NEIGHBOURS as usize {
-            drop(memory);
+        let in_range = pass.bound(&largest.map(A::Real::from_f64)) < LIMIT;
+        if !in_range || memory.layout.most_candidates > MAX_NEIGHBOURS as usize {
             return self.plain(pass, to, from, out);
         }
         let Memory {
-            strips,
-            read,
-            parts,
+            layout,
+            words,
+            sums,
             ..
-        } = &mut *memory;
-        let backend = self.backend;
-        let sweep = |part: &mut Part| {
-            for sums in part.sums.iter_mut().take(TERM) {
-                sums.clear();
-                sums.resize(part.slots.len(), 0);
-            }
-            backend.run(Sweep::<A, P, D, READ, TERM> {
+        } = memory;
+        let (layout, words) = (&*layout, &words[..]);
+        sums.resize_with(layout.parts.len(), Default::default);
+        layout.for_parts(sums.iter_mut().collect(), |strips, [sums, _]| {
+            sums.clear(layout.rows_reached::<D>(&strips), TERM);
+            self.crew.backend.run(Sweep::<A, P, D, READ, TERM> {
                 pass,
+                layout,
                 strips,
-                read,
-                part,
+                words,
+                sums,
                 arithmetic: PhantomData,
             });
-        };
-        if let [part] = &mut parts[..] {
-            sweep(part);
-        } else {
-            parts.par_iter_mut().for_each(sweep);
-        }
-        let memory = &*memory;
-        self.for_each(out, |place, sum| {
-            let slot = memory.strips.slot[place] as usize;
-            for (k, sum) in sum.iter_mut().enumerate() {
-                *sum = sum.plus_quanta(memory.received(k, slot));
+        });
+        let sums: Vec<_> = sums.iter().map(|[sums, _]| sums).collect();
+        layout.for_parts(layout.split_places(out), |strips, out| {
+            let mut out = out.iter_mut();
+            for strip in &layout.strips[strips] {
+                let contributors = layout.contributors::<TERM>(&sums, strip);
+                for (slot, out) in (strip.slot..strip.slot + strip.len).zip(&mut out) {
+                    add_received::<A::Real, _, TERM>(out, &contributors, slot);
+                }
             }
-            Ok(())
-        })
+        });
+        Ok(())
+    }
+
+    fn chain<A, C, const D: usize, const READ: usize, const FIRST: usize, const SECOND: usize>(
+        &self,
+        chain: &C,
+        set: &ChainSet<'_, A, D>,
+        sums: SumsOf<'_, A, C, D, READ, FIRST, SECOND>,
+    ) -> Result<(), Fault>
+    where
+        A: Arithmetic,
+        C: Chain<A, D, READ, FIRST, SECOND>,
+    {
+        let mut sums = sums;
+        let mut memory = self.memory();
+        // In space the arguments of a strip's neighbourhood are too many to be kept in a cache.
+        let fits = D == 2
+            && is_swept::<A>()
+            && memory.layout.is_of(set.position)
+            && memory.layout.most_candidates <= MAX_NEIGHBOURS as usize;
+        if fits && memory.chain(self.crew, chain, set, &mut sums)? {
+            return Ok(());
+        }
+        drop(memory);
+        chain_in_turn(self, chain, set, sums)
     }
 }

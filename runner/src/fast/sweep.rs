@@ -1,47 +1,374 @@
-//! The sweep: every pair once, a row of neighbours at a time.
+//! The sweep over a strip: every pair once, a row of neighbours at a time.
 //!
-//! Particle i meets the rows of its own strip after itself, and the rows of the windows in the
-//! strips that come after. Lanes beyond the reach vanish by themselves: the kernel is zero there.
-//! What i receives is summed in a row of integers; what the neighbours receive is added in place,
-//! for they are contiguous.
+//! Particle i meets those of its own row that come after it, and the rows of its list. Lanes beyond
+//! the reach vanish by themselves: the kernel is zero there. What the neighbours receive is added
+//! in place, for they are contiguous; what i receives is kept in a row of its own until the strip is
+//! done. There is no branch whose outcome depends on the particles.
+//!
+//! This is the one module with `unsafe`: rows are read and written without looking at their bounds
+//! for each pair, which took a third of the time. The bounds of a strip are compared once, in
+//! [`Leg::new`].
+#![allow(unsafe_code)]
 
 use super::backend::Work;
-use super::lanes::Row;
-use super::strips::Strips;
+use super::lanes::{Pack, Quad, ROW, Reals, Words};
+use super::layout::{Layout, Strip};
+use super::meets::{Meeting, Meets};
 use loschmidt_core::Arithmetic;
-use loschmidt_core::number::{Lanes, Real};
 use loschmidt_core::pairs::{PairPass, Parity};
 use std::marker::PhantomData;
 use std::ops::Range;
 
-/// 3·2^51: see [`loschmidt_core::number`].
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
+/// Added to r² in an own row: what does not come after i is far away.
+const AFTER: [Reals; ROW] = [
+    Reals([1e36, 0.0, 0.0, 0.0]),
+    Reals([1e36, 1e36, 0.0, 0.0]),
+    Reals([1e36, 1e36, 1e36, 0.0]),
+    Reals([1e36, 1e36, 1e36, 1e36]),
+];
 
-/// A part of the strips with the sums it adds to: its own slots and those of the strips after it.
+/// Sums by row of slots.
 #[derive(Debug, Default)]
-pub(super) struct Part {
-    /// The strips whose particles meet others.
-    pub strips: Range<usize>,
-    /// The slots that receive.
-    pub slots: Range<usize>,
-    /// Sums by component and slot, from `slots.start` on.
-    pub sums: [Vec<i64>; 3],
+pub(super) struct Sums {
+    /// Components of row `first_row`, then those of the next.
+    pub rows: Vec<Words>,
+    /// First row that has sums.
+    pub first_row: usize,
+    /// What the particles of the strip at hand have received as i, a row of components for each.
+    received: Vec<Words>,
 }
 
-/// One part to be swept.
+impl Sums {
+    /// Zeroes for `components` in each of these rows.
+    pub fn clear(&mut self, rows: Range<usize>, components: usize) {
+        self.first_row = rows.start;
+        self.rows.clear();
+        self.rows.resize(rows.len() * components, Words::default());
+    }
+
+    /// Room for `components` in each of these rows, whatever is in it.
+    pub fn prepare(&mut self, rows: Range<usize>, components: usize) {
+        self.first_row = rows.start;
+        self.rows.resize(rows.len() * components, Words::default());
+    }
+
+    /// Zeroes in these rows, as far as there is room for them.
+    pub fn clear_some(&mut self, rows: Range<usize>, components: usize) {
+        let place = |row: usize| ((row - self.first_row) * components).min(self.rows.len());
+        let rows = place(rows.start)..place(rows.end);
+        self.rows[rows].fill(Words::default());
+    }
+
+    /// Component k of a slot.
+    #[inline(always)]
+    pub fn of<const TERM: usize>(&self, slot: usize, k: usize) -> i64 {
+        self.rows[(slot / ROW - self.first_row) * TERM + k].0[slot % ROW]
+    }
+}
+
+/// A pass over one strip. All slices begin with its first row.
+pub(super) struct Leg<'a, A, P, const D: usize, const READ: usize, const TERM: usize> {
+    pass: &'a P,
+    strip: Strip,
+    meets: &'a [Meeting],
+    x: &'a [Reals],
+    words: &'a [Reals],
+    sums: &'a mut [Words],
+    /// TERM rows for each particle.
+    received: &'a mut [Words],
+    arithmetic: PhantomData<A>,
+}
+
+/// Where the argument of a term comes from.
+pub(super) trait Argument<Q: Quad> {
+    fn get<A, P, const D: usize, const READ: usize, const TERM: usize>(
+        &self,
+        pass: &P,
+        r2: Pack<A::Real, Q>,
+    ) -> Pack<A::Real, Q>
+    where
+        A: Arithmetic,
+        P: PairPass<A, D, READ, TERM>;
+}
+
+/// It is computed from r².
+pub(super) struct Fresh;
+/// It is known.
+pub(super) struct Known(pub Reals);
+
+impl<Q: Quad> Argument<Q> for Fresh {
+    #[inline(always)]
+    fn get<A, P, const D: usize, const READ: usize, const TERM: usize>(
+        &self,
+        pass: &P,
+        r2: Pack<A::Real, Q>,
+    ) -> Pack<A::Real, Q>
+    where
+        A: Arithmetic,
+        P: PairPass<A, D, READ, TERM>,
+    {
+        pass.argument(r2)
+    }
+}
+
+impl<Q: Quad> Argument<Q> for Known {
+    #[inline(always)]
+    fn get<A, P, const D: usize, const READ: usize, const TERM: usize>(
+        &self,
+        _: &P,
+        r2: Pack<A::Real, Q>,
+    ) -> Pack<A::Real, Q>
+    where
+        A: Arithmetic,
+        P: PairPass<A, D, READ, TERM>,
+    {
+        Pack::new(r2.simd, r2.simd.load(self.0))
+    }
+}
+
+impl<'a, A, P, const D: usize, const READ: usize, const TERM: usize> Leg<'a, A, P, D, READ, TERM>
+where
+    A: Arithmetic,
+    P: PairPass<A, D, READ, TERM>,
+{
+    /// A pass over strip number `s`. `words` are READ to a row, from row `words_from` on.
+    ///
+    /// # Panics
+    /// Rows that the strip meets lie outside the words or the sums.
+    #[inline(always)]
+    pub fn new(
+        pass: &'a P,
+        layout: &'a Layout,
+        s: Option<usize>,
+        (words, words_from): (&'a [Reals], usize),
+        sums: &'a mut Sums,
+    ) -> Self {
+        let nobody = (Strip::default(), const { &Meets::new() });
+        let (strip, meets) = s.map_or(nobody, |s| (layout.strips[s], &layout.meets[s]));
+        let rows = strip.rows();
+        let reached = meets.rows().max(rows.len());
+        let received = strip.len * TERM;
+        if sums.received.len() < received {
+            sums.received.resize(received, Words::default());
+        }
+        let x = &layout.x[rows.start * D..];
+        let words = match READ {
+            0 => &[],
+            _ if reached == 0 => &[],
+            _ => &words[(rows.start - words_from) * READ..],
+        };
+        let sums_of = match reached {
+            0 => &mut [],
+            _ => &mut sums.rows[(rows.start - sums.first_row) * TERM..],
+        };
+        // What `meet` relies on.
+        assert!(meets.particles() <= strip.len && strip.len <= rows.len() * ROW);
+        assert!(reached * D <= x.len());
+        assert!(reached * READ <= words.len());
+        assert!(reached * TERM <= sums_of.len());
+        Self {
+            pass,
+            strip,
+            meets: meets.list(),
+            x,
+            words,
+            sums: sums_of,
+            received: &mut sums.received[..received],
+            arithmetic: PhantomData,
+        }
+    }
+
+    /// Particle k meets a row. With OWN, it is its own row, and only those that come after k count.
+    /// Returns the argument of the terms.
+    ///
+    /// # Safety
+    /// k is below the number of particles of the strip; `row` is one of the strip's own or of its
+    /// meetings.
+    #[inline(always)]
+    unsafe fn meet<Q: Quad, const OWN: bool>(
+        &mut self,
+        simd: Q,
+        k: usize,
+        row: usize,
+        argument: impl Argument<Q>,
+    ) -> Reals {
+        debug_assert!(k < self.strip.len);
+        // SAFETY: `new` has made sure that all rows of the strip and of its meetings are in these
+        // slices, and k < strip.len, so that row k / ROW is one of the strip.
+        let (x_i, x_j, words_i, words_j, sums, received) = unsafe {
+            (
+                rows_at::<_, D>(self.x, k / ROW),
+                rows_at::<_, D>(self.x, row),
+                rows_at::<_, READ>(self.words, k / ROW),
+                rows_at::<_, READ>(self.words, row),
+                rows_at_mut::<_, TERM>(self.sums, row),
+                rows_at_mut::<_, TERM>(self.received, k),
+            )
+        };
+        let zero = Pack::<A::Real, Q>::new(simd, simd.splat(0.0));
+        let mut x_ij = [zero; D];
+        for d in 0..D {
+            let x_i = simd.splat(x_i[d].0[k % ROW]);
+            x_ij[d] = Pack::new(simd, simd.sub(x_i, simd.load(x_j[d])));
+        }
+        let mut r2 = x_ij[0] * x_ij[0];
+        for x in &x_ij[1..] {
+            r2 = r2 + *x * *x;
+        }
+        if OWN {
+            r2 = r2 + Pack::new(simd, simd.load(AFTER[k % ROW]));
+        }
+        let argument = argument.get::<A, P, D, READ, TERM>(self.pass, r2);
+        let (mut read_i, mut read_j) = ([zero; READ], [zero; READ]);
+        for c in 0..READ {
+            read_i[c] = Pack::new(simd, simd.splat(words_i[c].0[k % ROW]));
+            read_j[c] = Pack::new(simd, simd.load(words_j[c]));
+        }
+        let term = self.pass.term(&x_ij, argument, &read_i, &read_j);
+        for c in 0..TERM {
+            let rounded = simd.round(term[c].row);
+            let old = simd.load_words(sums[c]);
+            sums[c] = simd.store_words(match P::PARITY {
+                Parity::Symmetric => simd.plus(old, rounded),
+                Parity::Antisymmetric => simd.minus(old, rounded),
+            });
+            received[c] = simd.store_words(if OWN {
+                // The first that i receives in this strip.
+                rounded
+            } else {
+                simd.plus(simd.load_words(received[c]), rounded)
+            });
+        }
+        simd.store(argument.row)
+    }
+
+    /// Every particle meets those that come after it in its own row.
+    #[inline(always)]
+    fn own<Q: Quad>(&mut self, simd: Q, k: usize, argument: impl Argument<Q>) -> Reals {
+        assert!(k < self.strip.len);
+        // SAFETY: k is a particle of the strip and k / ROW its row.
+        unsafe { self.meet::<Q, true>(simd, k, k / ROW, argument) }
+    }
+
+    /// Meeting number m of the list.
+    #[inline(always)]
+    fn other<Q: Quad>(&mut self, simd: Q, m: usize, argument: impl Argument<Q>) -> Reals {
+        let [k, row] = self.meets[m];
+        // SAFETY: the bounds of the meetings are those that `new` has compared.
+        unsafe { self.meet::<Q, false>(simd, k as usize, row as usize, argument) }
+    }
+
+    /// The whole strip.
+    #[inline(always)]
+    pub fn alone<Q: Quad>(&mut self, simd: Q) {
+        for k in 0..self.strip.len {
+            self.own(simd, k, Fresh);
+        }
+        for m in 0..self.meets.len() {
+            self.other(simd, m, Fresh);
+        }
+        self.settle();
+    }
+
+    /// Number of arguments of terms.
+    #[inline(always)]
+    pub fn arguments(&self) -> usize {
+        self.strip.len + self.meets.len()
+    }
+
+    /// The whole strip along with that of another pass, pair by pair. The arguments of the terms are
+    /// written to `fresh`; those of the other's are `known`.
+    ///
+    /// # Panics
+    /// There are not as many as [`Leg::arguments`].
+    #[inline(always)]
+    pub fn along_with<Q, P2, const READ2: usize, const TERM2: usize>(
+        &mut self,
+        simd: Q,
+        fresh: &mut [Reals],
+        second: &mut Leg<'_, A, P2, D, READ2, TERM2>,
+        known: &[Reals],
+    ) where
+        Q: Quad,
+        P2: PairPass<A, D, READ2, TERM2>,
+    {
+        let (own, others) = fresh.split_at_mut(self.strip.len);
+        let (known_own, known_others) = known.split_at(second.strip.len);
+        let both = own.len().min(known_own.len());
+        for k in 0..both {
+            own[k] = self.own(simd, k, Fresh);
+            second.own(simd, k, Known(known_own[k]));
+        }
+        for (k, fresh) in own.iter_mut().enumerate().skip(both) {
+            *fresh = self.own(simd, k, Fresh);
+        }
+        for (k, known) in known_own.iter().enumerate().skip(both) {
+            second.own(simd, k, Known(*known));
+        }
+        let others = &mut others[..self.meets.len()];
+        let known_others = &known_others[..second.meets.len()];
+        let both = others.len().min(known_others.len());
+        for m in 0..both {
+            others[m] = self.other(simd, m, Fresh);
+            second.other(simd, m, Known(known_others[m]));
+        }
+        for (m, fresh) in others.iter_mut().enumerate().skip(both) {
+            *fresh = self.other(simd, m, Fresh);
+        }
+        for (m, known) in known_others.iter().enumerate().skip(both) {
+            second.other(simd, m, Known(*known));
+        }
+        self.settle();
+        second.settle();
+    }
+
+    /// Adds what the particles have received as i.
+    #[inline(always)]
+    fn settle(&mut self) {
+        let sums = self.sums.chunks_exact_mut(TERM);
+        let received = self.received.chunks(ROW * TERM);
+        for (sums, received) in sums.zip(received) {
+            for (l, received) in received.chunks_exact(TERM).enumerate() {
+                for (sum, row) in sums.iter_mut().zip(received) {
+                    let [a, b, c, d] = row.0;
+                    let total = a.wrapping_add(b).wrapping_add(c.wrapping_add(d));
+                    sum.0[l] = sum.0[l].wrapping_add(total);
+                }
+            }
+        }
+    }
+}
+
+/// Row number `row` of an array with N items to a row.
+///
+/// # Safety
+/// The array has such a row.
+#[inline(always)]
+unsafe fn rows_at<T, const N: usize>(items: &[T], row: usize) -> &[T; N] {
+    debug_assert!((row + 1) * N <= items.len());
+    // SAFETY: an array of N has the layout of N items, and the caller vouches for their being there.
+    unsafe { &*items.as_ptr().add(row * N).cast::<[T; N]>() }
+}
+
+/// As [`rows_at`].
+///
+/// # Safety
+/// The array has such a row.
+#[inline(always)]
+unsafe fn rows_at_mut<T, const N: usize>(items: &mut [T], row: usize) -> &mut [T; N] {
+    debug_assert!((row + 1) * N <= items.len());
+    // SAFETY: as in `rows_at`; the array is borrowed for as long as the row.
+    unsafe { &mut *items.as_mut_ptr().add(row * N).cast::<[T; N]>() }
+}
+
+/// One pass over some strips.
 pub(super) struct Sweep<'a, A, P, const D: usize, const READ: usize, const TERM: usize> {
     pub pass: &'a P,
-    pub strips: &'a Strips,
-    pub read: &'a [Vec<f64>; 3],
-    pub part: &'a mut Part,
+    pub layout: &'a Layout,
+    pub strips: Range<usize>,
+    pub words: &'a [Reals],
+    pub sums: &'a mut Sums,
     pub arithmetic: PhantomData<A>,
-}
-
-/// Views of the columns of numbers, in rows.
-#[derive(Clone, Copy)]
-struct Rows<'a, const D: usize, const READ: usize, const L: usize> {
-    x: [&'a [[f64; L]]; D],
-    read: [&'a [[f64; L]]; READ],
 }
 
 impl<A, P, const D: usize, const READ: usize, const TERM: usize> Work
@@ -50,135 +377,14 @@ where
     A: Arithmetic,
     P: PairPass<A, D, READ, TERM>,
 {
+    type Output = ();
     #[inline(always)]
-    fn run<const L: usize>(self) {
-        let strips = self.strips;
-        let rows = Rows::<D, READ, L> {
-            x: std::array::from_fn(|d| strips.x[d].as_chunks().0),
-            read: std::array::from_fn(|k| self.read[k].as_chunks().0),
-        };
-        let base = self.part.slots.start;
-        let [s0, s1, s2] = &mut self.part.sums;
-        let mut all = [s0, s1, s2].into_iter();
-        let mut sums: [&mut [i64]; TERM] = std::array::from_fn(|_| match all.next() {
-            Some(sums) => &mut sums[..],
-            None => &mut [],
-        });
-        for strip in self.part.strips.clone() {
-            for column in 0..strips.columns {
-                let cell = strips.cell(strip, column);
-                if cell.is_empty() {
-                    continue;
-                }
-                let own_end = strips.around(strip, column).end;
-                let mut beside = [const { 0..0 }; 4];
-                for (b, other) in beside.iter_mut().zip(strips.forward::<D>(strip)) {
-                    *b = strips.around(other, column);
-                }
-                for i in cell {
-                    let one = One::<A, P, D, READ, TERM, L>::new(self.pass, &rows, i, base);
-                    let mut received = [[0i64; L]; TERM];
-                    let first = (i + 1) / L;
-                    if first * L <= i {
-                        one.meet::<true>(first, &mut received, &mut sums);
-                    } else if first * L < own_end {
-                        one.meet::<false>(first, &mut received, &mut sums);
-                    }
-                    for row in first + 1..own_end.div_ceil(L) {
-                        one.meet::<false>(row, &mut received, &mut sums);
-                    }
-                    for window in &beside {
-                        if !window.is_empty() {
-                            for row in window.start / L..window.end.div_ceil(L) {
-                                one.meet::<false>(row, &mut received, &mut sums);
-                            }
-                        }
-                    }
-                    for (sums, received) in sums.iter_mut().zip(&received) {
-                        let total = received.iter().fold(0i64, |t, q| t.wrapping_add(*q));
-                        sums[i - base] = sums[i - base].wrapping_add(total);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// One particle that meets rows.
-struct One<
-    'a,
-    A: Arithmetic,
-    P,
-    const D: usize,
-    const READ: usize,
-    const TERM: usize,
-    const L: usize,
-> {
-    pass: &'a P,
-    rows: &'a Rows<'a, D, READ, L>,
-    i: usize,
-    base_row: usize,
-    x: [Row<A::Real, L>; D],
-    read: [Row<A::Real, L>; READ],
-}
-
-impl<'a, A, P, const D: usize, const READ: usize, const TERM: usize, const L: usize>
-    One<'a, A, P, D, READ, TERM, L>
-where
-    A: Arithmetic,
-    P: PairPass<A, D, READ, TERM>,
-{
-    #[inline(always)]
-    fn new(pass: &'a P, rows: &'a Rows<'a, D, READ, L>, i: usize, base: usize) -> Self {
-        let splat = |column: &[[f64; L]]| Row::splat(A::Real::from_f64(column[i / L][i % L]));
-        Self {
-            pass,
-            rows,
-            i,
-            base_row: base / L,
-            x: std::array::from_fn(|d| splat(rows.x[d])),
-            read: std::array::from_fn(|k| splat(rows.read[k])),
-        }
-    }
-
-    /// Meets a row; with OWN, only those of it that come after i.
-    #[inline(always)]
-    fn meet<const OWN: bool>(
-        &self,
-        row: usize,
-        received: &mut [[i64; L]; TERM],
-        sums: &mut [&mut [i64]; TERM],
-    ) {
-        let load = |column: &[[f64; L]]| Row(column[row].map(A::Real::from_f64));
-        let x_ij: [Row<A::Real, L>; D] = std::array::from_fn(|d| self.x[d] - load(self.rows.x[d]));
-        let mut r2 = x_ij[0] * x_ij[0];
-        for x in &x_ij[1..] {
-            r2 = r2 + *x * *x;
-        }
-        if OWN {
-            for (l, r2) in r2.0.iter_mut().enumerate() {
-                if row * L + l <= self.i {
-                    // Far away.
-                    *r2 = A::Real::from_f64(1e36);
-                }
-            }
-        }
-        let read_j: [Row<A::Real, L>; READ] = std::array::from_fn(|k| load(self.rows.read[k]));
-        let term = self.pass.term(&x_ij, r2, &self.read, &read_j);
-        for k in 0..TERM {
-            let rounded: [i64; L] = term[k].0.map(|x| {
-                ((x.to_f64() + ROUNDER).to_bits() as i64).wrapping_sub(ROUNDER.to_bits() as i64)
-            });
-            let Some(sums) = sums[k].as_chunks_mut::<L>().0.get_mut(row - self.base_row) else {
-                continue;
-            };
-            for l in 0..L {
-                received[k][l] = received[k][l].wrapping_add(rounded[l]);
-                sums[l] = match P::PARITY {
-                    Parity::Symmetric => sums[l].wrapping_add(rounded[l]),
-                    Parity::Antisymmetric => sums[l].wrapping_sub(rounded[l]),
-                };
-            }
+    fn run<Q: Quad>(self, simd: Q) {
+        let layout = self.layout;
+        for s in self.strips {
+            let words = (self.words, 0);
+            Leg::<A, P, D, READ, TERM>::new(self.pass, layout, Some(s), words, self.sums)
+                .alone(simd);
         }
     }
 }
