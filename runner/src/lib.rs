@@ -18,6 +18,7 @@
 mod engine;
 mod executor;
 pub mod fast;
+pub mod filter;
 pub mod frame;
 pub mod isc;
 pub mod output;

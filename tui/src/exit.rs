@@ -103,7 +103,7 @@ impl From<RunError> for Failure {
 }
 
 /// A path as a shell takes it.
-fn quote(path: &std::path::Path) -> String {
+pub fn quote(path: &std::path::Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@,=".contains(c);
     if text.chars().all(plain) {

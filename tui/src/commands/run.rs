@@ -24,7 +24,7 @@ const STOP: [i32; 2] = [SIGINT, SIGTERM];
 pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let stop = stop_flag()?;
     let source = scene::resolve(&arguments.scene.scene)?;
-    let scene = scene::load(&source, &arguments.scene.set)?;
+    let scene = scene::load(&source, &arguments.scene.overrides())?;
     let options = arguments.work.options(Options {
         arithmetic: arguments.arithmetic.into(),
         ..Options::default()
@@ -102,7 +102,7 @@ fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<Exit
 
 /// A flag that the signals to stop set. Repeated ones change nothing: the run stops after the step
 /// it is at, and its snapshot and last words are not to be lost to an impatient second Ctrl-C.
-fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
+pub fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in STOP {
         signal_hook::flag::register(signal, Arc::clone(&stop))?;
