@@ -117,6 +117,23 @@ impl Section {
         });
     }
 
+    /// A number of which something is asked at full size alone: coarser spacings are only measured.
+    pub fn check_at_full_size(
+        &mut self,
+        quick: bool,
+        quantity: &str,
+        ours: impl Into<String>,
+        published: &str,
+        asked: &str,
+        holds: bool,
+    ) {
+        if quick {
+            self.measure(quantity, ours, published);
+        } else {
+            self.check(quantity, ours, published, asked, holds);
+        }
+    }
+
     /// A number of which nothing was asked.
     pub fn measure(&mut self, quantity: &str, ours: impl Into<String>, published: &str) {
         self.findings.push(Finding {

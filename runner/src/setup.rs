@@ -46,8 +46,9 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
         },
         density_correction: match scene.density_correction {
             scene::DensityCorrection::Constant => DensityCorrection::Constant,
-            scene::DensityCorrection::Isc => DensityCorrection::Walls,
-            scene::DensityCorrection::None => DensityCorrection::None,
+            scene::DensityCorrection::Isc | scene::DensityCorrection::None => {
+                DensityCorrection::None
+            }
         },
         gravity: Gravity {
             uniform: first(scene.gravity.uniform),

@@ -61,11 +61,7 @@ fn is_the_average<const D: usize>(mut recipe: Recipe<D>, walls: bool) {
 
 #[test]
 fn a_filtering_is_the_shepard_average_with_dummies_at_rest() {
-    for correction in [
-        DensityCorrection::Constant,
-        DensityCorrection::Walls,
-        DensityCorrection::None,
-    ] {
+    for correction in [DensityCorrection::Constant, DensityCorrection::None] {
         for (wall, counted) in [(conservative(), false), (Wall::Dummy, true)] {
             let mut plane = dam_2d(wall, &STORMER_VERLET).stirred(3, 1.0);
             plane.parameters.density_correction = correction;

@@ -354,19 +354,10 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         matches!(self.parameters.wall, Wall::Dummy) && !system.walls.position.is_empty()
     }
 
-    /// C_a of a fluid particle whose bare density is `sum`: ρ0 - `sum` for a constant correction.
+    /// The reference density, or C_a = ρ0 - `sum` for a constant correction.
     pub(super) fn density_constant(&self, sum: A::Density) -> A::Density {
         match self.parameters.density_correction {
             DensityCorrection::Constant => self.reference_density.plus(sum.negated()),
-            DensityCorrection::Walls | DensityCorrection::None => A::Density::ZERO,
-        }
-    }
-    /// C_a of a dummy.
-    pub(super) fn wall_density_constant(&self, sum: A::Density) -> A::Density {
-        match self.parameters.density_correction {
-            DensityCorrection::Constant | DensityCorrection::Walls => {
-                self.reference_density.plus(sum.negated())
-            }
             DensityCorrection::None => A::Density::ZERO,
         }
     }

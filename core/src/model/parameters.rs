@@ -61,10 +61,7 @@ pub struct AntiClump {
 pub enum DensityCorrection {
     /// C_a = ρ0 - Σ m W at step 0, eq. (5).
     Constant,
-    /// C_a = 0 for the fluid, whose initial state was corrected instead; dummy walls, which stay where
-    /// they are, have their constants.
-    Walls,
-    /// C_a = 0, eq. (4).
+    /// C_a = 0, eq. (4): also where the initial state was corrected instead.
     None,
 }
 

@@ -108,7 +108,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
             self.update_wall_density(system, exec)?;
             let sums = &*system.scratch.wall_density;
             for (c, s) in system.walls.density.iter_mut().zip(sums) {
-                *c = forces.wall_density_constant(*s);
+                *c = forces.density_constant(*s);
             }
         }
         // The fixed part of the walls' density still lacks C_a.

@@ -25,7 +25,7 @@ fn corrected([columns, rows]: [usize; 2]) -> Option<Corrected> {
     let settings = Settings::new(spacing, 3.0 * spacing, 1000.0 * spacing * spacing, 1000.0);
     let mut stages = Vec::new();
     let began = Instant::now();
-    let report = correct(&mut fluid, &[], &settings, |x, rho| {
+    let report = correct(&mut fluid, &settings, |x, rho| {
         if columns == SIZES[0][0] {
             let relative = rho.iter().map(|rho| rho / 1000.0).collect();
             stages.push((x.to_vec(), relative));

@@ -202,7 +202,7 @@ pub fn fig5(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let Some(home) = past.rows.first() else {
         return Ok(section);
     };
-    budget(&past, &mut section);
+    budget(&past, lab.quick(), &mut section);
     let energies: [(&str, &str, fn(&Row) -> f64); 5] = [
         ("fig8", "total energy", |row| row.total),
         ("fig9", "kinetic energy", |row| row.kinetic),
@@ -253,7 +253,7 @@ pub fn fig5(lab: &mut Lab<'_>) -> Result<Section, LabError> {
 }
 
 /// The error of the energy in three units, and where the energy went.
-fn budget(past: &Past, section: &mut Section) {
+fn budget(past: &Past, quick: bool, section: &mut Section) {
     let Some(home) = past.rows.first() else {
         return;
     };
@@ -276,7 +276,8 @@ fn budget(past: &Past, section: &mut Section) {
         );
         let error = EnergyBalance::of(rows).map_or(f64::NAN, |balance| balance.max_error);
         let over_offset = 100.0 * error / (home.total + offset);
-        section.check(
+        section.check_at_full_size(
+            quick,
             &format!("the same over the paper's total, offset c²/6 included, up to {until}"),
             format!("{over_offset:.2e} %"),
             "2e-4 %",

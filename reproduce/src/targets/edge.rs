@@ -71,14 +71,16 @@ pub fn fig4(lab: &mut Lab<'_>) -> Result<Section, LabError> {
             ]);
             if k == 1 {
                 let what = format!("{label}, {spacing} m");
-                section.check(
+                section.check_at_full_size(
+                    lab.quick(),
                     &format!("{what}: rms distance to Violeau"),
                     format!("{to_violeau:.3}"),
                     "close",
                     "at most 0.12",
                     to_violeau <= 0.12,
                 );
-                section.check(
+                section.check_at_full_size(
+                    lab.quick(),
                     &format!("{what}: rms distance to the experiment"),
                     format!("{to_experiment:.3}"),
                     &format!("Violeau's own: {of_violeau:.3}"),

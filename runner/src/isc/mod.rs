@@ -3,9 +3,9 @@
 //! The density sum without constants, eq. (4), is far below ρ0 at a free surface. Instead of adding
 //! the difference back as a constant (C_a, eq. 5), the particles are moved until
 //!
-//! F_a(x) = ρ0 - Σ_b m W(x_a - x_b) = 0 for every fluid particle a,
+//! F_a(x) = ρ0 - Σ_b m W(x_a - x_b) = 0 for every particle a,
 //!
-//! where b runs over the fluid, a itself and fixed particles (dummy walls). Newton's method, with
+//! where b runs over all particles, a itself included. Newton's method, with
 //! the displacement restricted to a discrete gradient, eq. (6b), makes each step the shortest one
 //! that solves the linearised equations (6a): with g_ab = m W'(r_ab) e_ab and G_a = Σ_b g_ab,
 //!
@@ -118,15 +118,13 @@ const DIVERGED: f64 = 1e3;
 /// farther is shortened as a whole. (At the free surface the first one is about that long.)
 const LONGEST: f64 = 1.0;
 
-/// Moves the `fluid` until all of its densities are the reference density. The particles of `fixed`
-/// add to the densities and stay. With `observe` one can look at the positions and densities
-/// (kg/m³) before each step and at the end.
+/// Moves the particles until all of their densities are the reference density. With `observe` one can
+/// look at the positions and densities (kg/m³) before each step and at the end.
 ///
 /// # Errors
 /// [`NotConverged`]; the positions are then of no use.
 pub fn correct<const D: usize>(
     fluid: &mut [[f64; D]],
-    fixed: &[[f64; D]],
     settings: &Settings,
     mut observe: impl FnMut(&[[f64; D]], &[f64]),
 ) -> Result<Report, NotConverged> {
@@ -143,7 +141,7 @@ pub fn correct<const D: usize>(
     let mut steps: Vec<Step> = Vec::new();
     let mut best = f64::INFINITY;
     loop {
-        let pairs = Pairs::new(fluid, fixed, settings);
+        let pairs = Pairs::new(fluid, settings);
         observe(fluid, &pairs.density);
         let missing: Vec<f64> = pairs.density.par_iter().map(|rho| rho0 - rho).collect();
         let error = largest(missing.par_iter().map(|f| f.abs())) / rho0;

@@ -19,7 +19,7 @@ pub(super) struct Pairs<const D: usize> {
     other: Vec<u32>,
     /// g_ab of each.
     gradient: Vec<[f64; D]>,
-    /// G_a: the sum of g_ab over fluid and fixed particles.
+    /// G_a: the sum of g_ab.
     total: Vec<[f64; D]>,
     /// The diagonal of D Dᵀ: |G_a|² + Σ_b |g_ab|².
     pub diagonal: Vec<f64>,
@@ -59,17 +59,14 @@ impl Law<'_> {
 }
 
 impl<const D: usize> Pairs<D> {
-    /// Finds the pairs of the fluid and what the fixed particles add.
-    pub fn new(fluid: &[[f64; D]], fixed: &[[f64; D]], settings: &Settings) -> Self {
+    /// Finds the pairs.
+    pub fn new(fluid: &[[f64; D]], settings: &Settings) -> Self {
         let unit = settings.support_radius / UNITS;
         let units: Vec<[f64; D]> = fluid.iter().map(|x| x.map(|x| x / unit)).collect();
-        let fixed_units: Vec<[f64; D]> = fixed.iter().map(|x| x.map(|x| x / unit)).collect();
-        let most_buckets = 2 * (fluid.len() + fixed.len());
+        let most_buckets = 2 * fluid.len();
         let grid = Grid::new(UNITS as i64, extent(&units), most_buckets);
         let (mut start, mut order) = (vec![0; grid.buckets() + 1], vec![0; fluid.len()]);
         let cells = sorted(&grid, &units, &mut start, &mut order);
-        let (mut start, mut order) = (vec![0; grid.buckets() + 1], vec![0; fixed.len()]);
-        let fixed_cells = sorted(&grid, &fixed_units, &mut start, &mut order);
         let law = Law {
             kernel: WendlandC2::new(D, settings.support_radius, 1.0),
             settings,
@@ -96,13 +93,6 @@ impl<const D: usize> Pairs<D> {
                             found.diagonal += square(&g);
                             found.other.push(j);
                             found.gradient.push(g);
-                        }
-                    }
-                });
-                fixed_cells.around(&grid, &units[i], |run| {
-                    for &j in run {
-                        if let Some((density, g)) = law.pair(x, &fixed[j as usize]) {
-                            found.add(density, &g);
                         }
                     }
                 });

@@ -144,7 +144,8 @@ impl Scene {
         )
     }
 
-    /// Moves the fluid until its summed density is the reference density.
+    /// Moves the particles until their summed densities are the reference density: the fluid, and
+    /// dummy walls with it, which belong to the density and whose outer face is a free surface too.
     fn correct(&self, state: &mut InitialState) -> Result<isc::Report, SceneError> {
         match self.dimension {
             Dimension::Two => self.correct_in::<2>(state),
@@ -157,20 +158,18 @@ impl Scene {
         state: &mut InitialState,
     ) -> Result<isc::Report, SceneError> {
         let first = |x: &Point| -> [f64; D] { std::array::from_fn(|d| x[d]) };
-        let mut fluid: Vec<[f64; D]> = state.fluid.iter().map(first).collect();
+        let mut moved: Vec<[f64; D]> = state.fluid.iter().map(first).collect();
         // Other walls take no part in the density.
-        let fixed: Vec<[f64; D]> = match self.wall_model {
-            WallModel::Dummy => state.wall.iter().map(first).collect(),
-            WallModel::Conservative | WallModel::None => Vec::new(),
-        };
-        let report =
-            isc::correct(&mut fluid, &fixed, &self.correction(), |_, _| {}).map_err(|reason| {
-                SceneError::NotCorrected {
-                    scene: self.name.clone(),
-                    reason,
-                }
-            })?;
-        for (x, moved) in state.fluid.iter_mut().zip(&fluid) {
+        if self.wall_model == WallModel::Dummy {
+            moved.extend(state.wall.iter().map(first));
+        }
+        let report = isc::correct(&mut moved, &self.correction(), |_, _| {});
+        let report = report.map_err(|reason| SceneError::NotCorrected {
+            scene: self.name.clone(),
+            reason,
+        })?;
+        let all = state.fluid.iter_mut().chain(&mut state.wall);
+        for (x, moved) in all.zip(&moved) {
             x[..D].copy_from_slice(moved);
         }
         Ok(report)
