@@ -549,3 +549,33 @@ pub fn styled(
         colour,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Chart, Style, line, styled};
+
+    #[test]
+    fn a_chart_draws_what_it_can_and_leaves_out_the_rest() {
+        let points = [[0.0, 1.0], [1.0, f64::NAN], [2.0, -1.0], [3.0, 100.0]];
+        let chart = Chart {
+            title: "a < b & c".to_owned(),
+            y_log: true,
+            series: vec![
+                styled("dots", 0, Style::Dots, points.into_iter()),
+                line("line", 1, points.into_iter()),
+            ],
+            ..Chart::default()
+        };
+        let svg = chart.svg();
+        // Two points can be shown, and one disc stands in the legend.
+        assert_eq!(svg.matches("<circle").count(), 3);
+        assert!(svg.contains("a &lt; b &amp; c"));
+        assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    }
+
+    #[test]
+    fn an_empty_chart_is_a_frame() {
+        let svg = Chart::default().svg();
+        assert!(svg.contains("<rect") && !svg.contains("NaN"));
+    }
+}

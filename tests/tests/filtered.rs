@@ -5,6 +5,7 @@ use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::model::{DensityCorrection, Wall};
 use loschmidt_core::{Filtered, Fixed, Model, Reversibility, Serial, Symplectic};
 use loschmidt_runner::fast::Backend;
+use loschmidt_runner::filter::shepard;
 use loschmidt_runner::player::PlayerError;
 use loschmidt_runner::scene::{Source, load};
 use loschmidt_runner::{ExecutorKind, Options};
@@ -169,4 +170,43 @@ fn a_scene_that_filters_has_no_turnaround() {
     let source = Source::Catalogue("dam-break".to_owned());
     let error = load(&source, &["model=filtered".to_owned()]).expect_err("no way back");
     assert!(error.to_string().contains("`turnaround` does not go with"));
+}
+
+/// The passive filter, on a copy: the average in doubles with the volumes of the frame, and the
+/// state as it was.
+#[test]
+fn the_passive_filter_averages_a_copy_and_leaves_the_state_alone() {
+    let set = ["particle_spacing=0.05", "turnaround=0.5"];
+    let scene = scene("gresho-vortex", &set);
+    let mut player = player(scene.clone(), serial());
+    player.advance(100).expect("in range");
+    let before = player.save();
+    let frame = player.frame().expect("densities");
+    let filtered = shepard(&scene, &frame);
+    assert_eq!(player.save(), before);
+    let kernel = WendlandC2::<f64>::new(2, scene.support_radius(), 1.0);
+    let mass = frame.particle_mass;
+    for (x, found) in frame.position.iter().zip(&filtered) {
+        let (mut sum, mut gamma) = ([0.0; 2], 0.0);
+        let mut add = |y: &[f64; 3], volume: f64, u: &[f64; 3]| {
+            let w = volume * kernel.value((x[0] - y[0]).hypot(x[1] - y[1]));
+            gamma += w;
+            sum = [sum[0] + w * u[0], sum[1] + w * u[1]];
+        };
+        for ((y, u), rho) in frame
+            .position
+            .iter()
+            .zip(&frame.velocity)
+            .zip(&frame.density)
+        {
+            add(y, mass / rho, u);
+        }
+        for y in &frame.wall_position {
+            add(y, mass / scene.fluid.reference_density, &[0.0; 3]);
+        }
+        for d in 0..2 {
+            let error = (found[d] - sum[d] / gamma).abs();
+            assert!(error < permitted::SHEPARD_AVERAGE, "{error:e}");
+        }
+    }
 }

@@ -201,3 +201,17 @@ fn fidelity(
     }
     lab.figure(section, "echo-fidelity", &chart.svg(), "Early on the return error is proportional to the perturbation; late, the smallest one is as bad as any.")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::slope;
+
+    #[test]
+    fn the_slope_of_an_exponential_is_its_rate() {
+        let points: Vec<[f64; 2]> = (0..5)
+            .map(|k| [f64::from(k), 3.0 * libm::exp(2.5 * f64::from(k))])
+            .collect();
+        assert!((slope(&points).expect("points") - 2.5).abs() < 1e-12);
+        assert_eq!(slope(&points[..1]), None);
+    }
+}

@@ -174,3 +174,34 @@ pub fn fig6(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     lab.figure(&mut section, "fig6-right", &chart.svg(), "The entropy climbs to its equilibrium on the way out and comes down again on the way back, through the same values.")?;
     Ok(section)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{histogram, kolmogorov_smirnov};
+
+    /// Quantiles of the Maxwellian of kT/m = 4 m²/s².
+    fn quantiles(n: usize) -> Vec<f64> {
+        let quantile = |k: usize| {
+            let p = (k as f64 + 0.5) / n as f64;
+            libm::sqrt(-8.0 * libm::log(1.0 - p))
+        };
+        (0..n).map(quantile).collect()
+    }
+
+    #[test]
+    fn quantiles_of_a_maxwellian_lie_half_a_step_from_it() {
+        let speeds = quantiles(1000);
+        let distance = kolmogorov_smirnov(&speeds, 4.0);
+        assert!((distance - 0.0005).abs() < 1e-9, "{distance}");
+        assert!(kolmogorov_smirnov(&speeds, 5.0) > 0.05);
+    }
+
+    #[test]
+    fn a_histogram_of_them_has_their_temperature_and_entropy() {
+        let histogram = histogram(&quantiles(10_000), 120.0);
+        assert_eq!(histogram.beyond, 0);
+        assert!((histogram.temperature_of_energy / 4.0 - 1.0).abs() < 0.01);
+        let equilibrium = histogram.equilibrium_of_energy().expect("motion");
+        assert!((histogram.entropy() - equilibrium).abs() < 0.02);
+    }
+}
