@@ -58,6 +58,17 @@ pub trait Executor {
         f: impl Fn(usize, &mut T) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault>;
 
+    /// Calls `f(i, &mut a[i], &mut b[i])` for every i, in any order, possibly at once.
+    ///
+    /// # Errors
+    /// The fault of the smallest id among all that failed.
+    fn for_both<T: Send, U: Send>(
+        &self,
+        a: &mut [T],
+        b: &mut [U],
+        f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
+    ) -> Result<(), Fault>;
+
     /// Makes the neighbours of the fluid findable after it has moved: sorts it into `cells`, or into
     /// whatever the executor finds them in. With `for_others`, particles of another set (walls) will
     /// look for the fluid too, in `cells`. The executor may change the storage order of the state:
@@ -138,12 +149,29 @@ impl Executor for Serial {
         items: &mut [T],
         f: impl Fn(usize, &mut T) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault> {
-        let mut first: Option<Fault> = None;
-        for (i, item) in items.iter_mut().enumerate() {
-            if let Err(fault) = f(i, item) {
-                first = Some(first.map_or(fault, |other| other.first(fault)));
-            }
-        }
-        first.map_or(Ok(()), Err)
+        first_fault(items.iter_mut().enumerate(), |(i, item)| f(i, item))
     }
+
+    fn for_both<T: Send, U: Send>(
+        &self,
+        a: &mut [T],
+        b: &mut [U],
+        f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
+    ) -> Result<(), Fault> {
+        first_fault(a.iter_mut().zip(b).enumerate(), |(i, (a, b))| f(i, a, b))
+    }
+}
+
+/// Does all, and returns the fault of the smallest id.
+fn first_fault<T>(
+    items: impl Iterator<Item = T>,
+    f: impl Fn(T) -> Result<(), Fault>,
+) -> Result<(), Fault> {
+    let mut first: Option<Fault> = None;
+    for item in items {
+        if let Err(fault) = f(item) {
+            first = Some(first.map_or(fault, |other| other.first(fault)));
+        }
+    }
+    first.map_or(Ok(()), Err)
 }

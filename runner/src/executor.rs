@@ -82,6 +82,23 @@ impl Executor for Rayon {
         };
         self.pool.install(run).map_or(Ok(()), Err)
     }
+
+    fn for_both<T: Send, U: Send>(
+        &self,
+        a: &mut [T],
+        b: &mut [U],
+        f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
+    ) -> Result<(), Fault> {
+        let run = || {
+            a.par_iter_mut()
+                .zip(b)
+                .with_min_len(GRAIN)
+                .enumerate()
+                .filter_map(|(i, (a, b))| f(i, a, b).err())
+                .reduce_with(Fault::first)
+        };
+        self.pool.install(run).map_or(Ok(()), Err)
+    }
 }
 
 /// The core's `gather` with the branches taken out of the search.

@@ -8,6 +8,7 @@ use loschmidt_reproduce::Target;
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::preset;
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options};
+use loschmidt_viewer::{Colormap, Colouring, Theme};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -34,6 +35,8 @@ pub enum Command {
     Run(RunArguments),
     /// Go on with an interrupted run
     Resume(ResumeArguments),
+    /// Make a movie of a scene or of a finished run: numbered pictures, GIF, MP4
+    Movie(MovieArguments),
     /// List the catalogue of scenes, or print one of them
     Scenes(ScenesArguments),
     /// Run the paper's figures and tables again: numbers beside the paper's, verdicts, a report
@@ -198,6 +201,162 @@ pub struct ResumeArguments {
     /// How it is computed.
     #[command(flatten)]
     pub work: WorkArguments,
+}
+
+/// Arguments of `movie`.
+#[derive(Args, Debug)]
+pub struct MovieArguments {
+    /// A scene file, the name of a scene of the catalogue, or the directory of a finished run, whose
+    /// frames are then drawn without simulating again
+    pub scene: String,
+    /// Override a key of the scene; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Directory of the pictures [default: movies/SCENE-N, the next free N]; an interrupted movie in it
+    /// is continued
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Replace an earlier movie
+    #[arg(long)]
+    pub force: bool,
+    /// Print neither progress nor times
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: (usize, usize),
+    /// Pictures per second
+    #[arg(long, value_name = "N", default_value = "30", value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub fps: u32,
+    /// Length of the movie; the pictures are evenly paced, home is the first and the last
+    /// [default: 12, or what a finished run has frames for]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub seconds: Option<f64>,
+    /// What the colours say
+    #[arg(long, default_value = "speed")]
+    pub color: ColorName,
+    /// Colour map [default: the one that suits the colours]
+    #[arg(long)]
+    pub colormap: Option<ColormapName>,
+    /// Colours of everything else
+    #[arg(long, default_value = "dark")]
+    pub theme: ThemeName,
+    /// A PNG laid over the initial state: every particle takes its colour from it
+    #[arg(long, value_name = "PNG", conflicts_with_all = ["color", "colormap"])]
+    pub tint: Option<PathBuf>,
+    /// Show the same scene beside it in another arithmetic
+    #[arg(long)]
+    pub compare: Option<CompareName>,
+    /// Make a GIF of the pictures, too
+    #[arg(long, value_name = "FILE")]
+    pub gif: Option<PathBuf>,
+    /// Make an MP4 of the pictures, too; needs ffmpeg
+    #[arg(long, value_name = "FILE")]
+    pub mp4: Option<PathBuf>,
+    /// Threads of the executor [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub threads: Option<NonZeroUsize>,
+    /// Who walks the particles [default: fast]
+    #[arg(long)]
+    pub executor: Option<ExecutorName>,
+}
+
+/// What a movie can be compared with.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum CompareName {
+    /// Floating point, which does not return
+    Float,
+}
+
+/// Names of the colourings.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ColorName {
+    /// Speed
+    Speed,
+    /// Density
+    Density,
+    /// Pressure
+    Pressure,
+    /// Height at the start
+    InitialHeight,
+    /// Distance from the place at the start
+    Displacement,
+}
+
+impl From<ColorName> for Colouring {
+    fn from(name: ColorName) -> Self {
+        match name {
+            ColorName::Speed => Self::Speed,
+            ColorName::Density => Self::Density,
+            ColorName::Pressure => Self::Pressure,
+            ColorName::InitialHeight => Self::InitialHeight,
+            ColorName::Displacement => Self::Displacement,
+        }
+    }
+}
+
+/// Names of the colour maps.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ColormapName {
+    /// Blue, green, yellow
+    Viridis,
+    /// Purple, orange, yellow
+    Magma,
+    /// Blue, grey, yellow
+    Cividis,
+    /// Blue, grey, red, for numbers with a middle
+    Coolwarm,
+}
+
+impl From<ColormapName> for Colormap {
+    fn from(name: ColormapName) -> Self {
+        match name {
+            ColormapName::Viridis => Self::Viridis,
+            ColormapName::Magma => Self::Magma,
+            ColormapName::Cividis => Self::Cividis,
+            ColormapName::Coolwarm => Self::CoolWarm,
+        }
+    }
+}
+
+/// Names of the themes.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ThemeName {
+    /// Light on dark
+    Dark,
+    /// Dark on light
+    Light,
+}
+
+impl From<ThemeName> for Theme {
+    fn from(name: ThemeName) -> Self {
+        match name {
+            ThemeName::Dark => Self::DARK,
+            ThemeName::Light => Self::LIGHT,
+        }
+    }
+}
+
+/// Sizes of a picture in pixels, smallest and largest.
+const SIZES: [usize; 2] = [64, 7680];
+
+fn size(text: &str) -> Result<(usize, usize), String> {
+    let allowed = |n: &usize| (SIZES[0]..=SIZES[1]).contains(n);
+    let parsed = text.split_once('x').and_then(|(width, height)| {
+        let side = |text: &str| text.parse().ok().filter(allowed);
+        Some((side(width)?, side(height)?))
+    });
+    let [smallest, largest] = SIZES;
+    parsed.ok_or_else(|| {
+        format!("allowed: WIDTHxHEIGHT, such as 1280x720, both from {smallest} to {largest} pixels")
+    })
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(s) if s > 0.0 && s <= 3600.0 => Ok(s),
+        _ => Err("allowed: a number above 0 and at most 3600 s".to_owned()),
+    }
 }
 
 /// Arguments of `scenes`.

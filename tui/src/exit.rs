@@ -3,6 +3,7 @@
 use loschmidt_runner::RunError;
 use loschmidt_runner::output::{OutputError, SnapshotError};
 use loschmidt_runner::scene::SceneError;
+use loschmidt_viewer::movie::MovieError;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -99,6 +100,28 @@ impl From<RunError> for Failure {
                 Self::new(INTERRUPTED, message)
             }
         }
+    }
+}
+
+impl From<MovieError> for Failure {
+    fn from(error: MovieError) -> Self {
+        let code = match error {
+            MovieError::Run(error) => return error.into(),
+            MovieError::OtherMovie(_)
+            | MovieError::Foreign(_)
+            | MovieError::Exists(_)
+            | MovieError::InUse(_)
+            | MovieError::Io { .. }
+            | MovieError::NoFfmpeg { .. }
+            | MovieError::Ffmpeg { .. } => OUTPUT,
+            MovieError::Picture { .. }
+            | MovieError::Unfinished(_)
+            | MovieError::FewFrames { .. }
+            | MovieError::NoFrames(_) => USAGE,
+            MovieError::Fault { .. } => RANGE,
+            MovieError::Interrupted { .. } => INTERRUPTED,
+        };
+        Self::new(code, format!("error: {error}"))
     }
 }
 

@@ -4,6 +4,7 @@ use crate::exit::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use loschmidt_runner::run::Progress;
 use loschmidt_runner::{Run, setup};
+use loschmidt_viewer::movie;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
@@ -143,5 +144,68 @@ pub fn duration(seconds: f64) -> String {
         0..60 => format!("{s} s"),
         60..3600 => format!("{} min {:02} s", s / 60, s % 60),
         _ => format!("{} h {:02} min", s / 3600, s % 3600 / 60),
+    }
+}
+
+/// Shows how far a movie has come.
+pub struct Pictures {
+    quiet: bool,
+    bar: Option<ProgressBar>,
+    /// When and at which step this process began.
+    began: Option<(Instant, u64)>,
+    last: Option<Instant>,
+}
+
+impl Pictures {
+    pub fn new(quiet: bool) -> Self {
+        Self {
+            quiet,
+            bar: None,
+            began: None,
+            last: None,
+        }
+    }
+
+    pub fn show(&mut self, progress: &movie::Progress) {
+        if self.quiet {
+            return;
+        }
+        let now = Instant::now();
+        let (start, first) = *self.began.get_or_insert((now, progress.step));
+        let left = match progress.step.saturating_sub(first) {
+            0 => "?".to_owned(),
+            done => {
+                let pace = (now - start).as_secs_f64() / done as f64;
+                duration(pace * progress.steps.saturating_sub(progress.step) as f64)
+            }
+        };
+        if std::io::stderr().is_terminal() {
+            let total = progress.total as u64;
+            let bar = self.bar.get_or_insert_with(|| {
+                let target = ProgressDrawTarget::stderr_with_hz(10);
+                let bar = ProgressBar::with_draw_target(Some(total), target);
+                let template = "{wide_bar} picture {pos}/{len}  {msg} left";
+                if let Ok(style) = ProgressStyle::with_template(template) {
+                    bar.set_style(style.progress_chars("█▉▊▋▌▍▎▏ "));
+                }
+                bar
+            });
+            bar.set_message(left);
+            bar.set_position(progress.done as u64);
+            return;
+        }
+        let finished = progress.done == progress.total;
+        if finished || self.last.is_none_or(|last| now - last >= PAUSE) {
+            self.last = Some(now);
+            let (done, total) = (progress.done, progress.total);
+            tell(&format!("picture {done}/{total}, {left} left"));
+        }
+    }
+
+    /// Leaves the terminal as it was.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
     }
 }

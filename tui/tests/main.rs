@@ -1,6 +1,7 @@
 //! The program, as a user meets it: all tests in one program, linked once.
 
 mod cli_interrupt;
+mod cli_movie;
 mod cli_result;
 mod cli_resume;
 mod cli_usage;

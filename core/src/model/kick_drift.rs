@@ -318,23 +318,31 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         exec: &E,
         c: f64,
     ) -> Result<(), Fault> {
+        self.update_impulses(system, exec, c)?;
+        let State { id, velocity, .. } = &mut system.state;
+        let (id, impulse) = (&**id, &*system.scratch.impulse);
+        exec.for_each(velocity, |i, v| kicked(v, &impulse[i], id[i]))
+    }
+
+    fn update_impulses<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        c: f64,
+    ) -> Result<(), Fault> {
         if system.progress.impulse_for != Some(c.to_bits()) {
             system.progress.impulse_for = None;
             self.impulses(system, exec, c)?;
             system.progress.impulse_for = Some(c.to_bits());
         }
-        let State { id, velocity, .. } = &mut system.state;
-        let (id, impulse) = (&**id, &*system.scratch.impulse);
-        exec.for_each(velocity, |i, v| {
-            for (v, j) in v.iter_mut().zip(impulse[i]) {
-                *v = v.plus(j);
-            }
-            if v.iter().all(|v| v.in_range()) {
-                Ok(())
-            } else {
-                Err(Fault::new(FaultKind::VelocityRange, id[i]))
-            }
-        })
+        Ok(())
+    }
+
+    /// Length quanta of a drift of `c` time steps with one speed quantum.
+    fn drift_factor(&self, c: f64) -> A::Real {
+        let s = self.parameters().scale;
+        let units = s.speed_quantum() / s.length_quantum();
+        A::Real::from_f64((c * self.parameters().time_step) * units)
     }
 
     /// x ← x + R(c dt v).
@@ -346,9 +354,7 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
     ) -> Result<(), Fault> {
         system.progress.impulse_for = None;
         system.progress.density_current = false;
-        let s = self.parameters().scale;
-        let units = s.speed_quantum() / s.length_quantum();
-        let factor = A::Real::from_f64((c * self.parameters().time_step) * units);
+        let factor = self.drift_factor(c);
         let State {
             id,
             position,
@@ -356,18 +362,67 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             ..
         } = &mut system.state;
         let (id, velocity) = (&**id, &**velocity);
-        exec.for_each(position, |i, x| {
-            let mut inside = true;
-            for (x, v) in x.iter_mut().zip(&velocity[i]) {
-                let moved = x.add_rounded(v.quanta::<A::Real>() * factor);
-                inside &= moved.is_some_and(Quantity::in_range);
-                *x = moved.unwrap_or(*x);
-            }
-            if inside {
-                Ok(())
-            } else {
-                Err(Fault::new(FaultKind::PositionRange, id[i]))
-            }
+        exec.for_each(position, |i, x| drifted(x, &velocity[i], factor, id[i]))
+    }
+
+    /// A kick and the drift after it, in one go through the particles.
+    pub(super) fn kick_and_drift<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        kick: f64,
+        drift: f64,
+    ) -> Result<(), Fault> {
+        self.update_impulses(system, exec, kick)?;
+        system.progress.impulse_for = None;
+        system.progress.density_current = false;
+        let factor = self.drift_factor(drift);
+        let State {
+            id,
+            position,
+            velocity,
+            ..
+        } = &mut system.state;
+        let (id, impulse) = (&**id, &*system.scratch.impulse);
+        exec.for_both(position, velocity, |i, x, v| {
+            kicked(v, &impulse[i], id[i])?;
+            drifted(x, v, factor, id[i])
         })
+    }
+}
+
+/// v ← v + J.
+#[inline]
+fn kicked<Q: Quantity, const D: usize>(v: &mut [Q; D], j: &[Q; D], id: u64) -> Result<(), Fault> {
+    let mut inside = true;
+    for (v, j) in v.iter_mut().zip(j) {
+        *v = v.plus(*j);
+        inside &= v.in_range();
+    }
+    if inside {
+        Ok(())
+    } else {
+        Err(Fault::new(FaultKind::VelocityRange, id))
+    }
+}
+
+/// x ← x + R(factor v).
+#[inline]
+fn drifted<R: Real, X: Quantity, V: Quantity, const D: usize>(
+    x: &mut [X; D],
+    v: &[V; D],
+    factor: R,
+    id: u64,
+) -> Result<(), Fault> {
+    let mut inside = true;
+    for (x, v) in x.iter_mut().zip(v) {
+        let moved = x.add_rounded(v.quanta::<R>() * factor);
+        inside &= moved.is_some_and(Quantity::in_range);
+        *x = moved.unwrap_or(*x);
+    }
+    if inside {
+        Ok(())
+    } else {
+        Err(Fault::new(FaultKind::PositionRange, id))
     }
 }

@@ -147,14 +147,25 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
             return Err(Fault::new(FaultKind::NotInitialised, 0).at_step(step));
         }
         let mut stages = || {
-            for stage in self.forces.parameters().integrator.stages {
-                match *stage {
-                    Stage::Kick(c) => {
-                        self.update_for_kick(system, exec, c)?;
-                        self.forces.kick(system, exec, c)?;
+            let mut stages = self.forces.parameters().integrator.stages;
+            loop {
+                stages = match *stages {
+                    [Stage::Kick(kick), Stage::Drift(drift), ref rest @ ..] => {
+                        self.update_for_kick(system, exec, kick)?;
+                        self.forces.kick_and_drift(system, exec, kick, drift)?;
+                        rest
                     }
-                    Stage::Drift(c) => self.forces.drift(system, exec, c)?,
-                }
+                    [Stage::Kick(kick), ref rest @ ..] => {
+                        self.update_for_kick(system, exec, kick)?;
+                        self.forces.kick(system, exec, kick)?;
+                        rest
+                    }
+                    [Stage::Drift(drift), ref rest @ ..] => {
+                        self.forces.drift(system, exec, drift)?;
+                        rest
+                    }
+                    [] => break,
+                };
             }
             Ok(())
         };

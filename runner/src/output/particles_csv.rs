@@ -112,3 +112,60 @@ impl CsvWriter {
         Ok(())
     }
 }
+
+/// Reads a file that [`CsvWriter`] wrote. What the file does not hold (step, times, way and mass) is 0
+/// or `false`; the dimension is that of the header.
+///
+/// # Errors
+/// The reader's; `InvalidData` for a header or a line that this program does not write.
+pub fn read(from: impl io::Read) -> io::Result<Frame> {
+    let mut reader = csv::Reader::from_reader(from);
+    let axes = match reader.headers()?.len() {
+        8 => 2,
+        10 => 3,
+        _ => return Err(bad("header", 1)),
+    };
+    let mut expected = CsvWriter::new();
+    expected.header(axes);
+    let header: Vec<&str> = reader.headers()?.iter().collect();
+    if expected.text.trim_ascii_end() != header.join(",").as_bytes() {
+        return Err(bad("header", 1));
+    }
+    let mut frame = Frame {
+        dimension: axes,
+        ..Frame::default()
+    };
+    let mut record = csv::StringRecord::new();
+    while reader.read_record(&mut record)? {
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |column: usize| -> io::Result<f64> {
+            let text = record.get(column).unwrap_or_default();
+            text.parse().map_err(|_| bad("number", line))
+        };
+        let vector = |first: usize| -> io::Result<[f64; 3]> {
+            let mut x = [0.0; 3];
+            for (k, x) in x.iter_mut().enumerate().take(axes) {
+                *x = number(first + k)?;
+            }
+            Ok(x)
+        };
+        match record.get(1) {
+            Some("fluid") => {
+                let id = record.get(0).and_then(|text| text.parse().ok());
+                frame.id.push(id.ok_or_else(|| bad("id", line))?);
+                frame.position.push(vector(2)?);
+                frame.velocity.push(vector(2 + axes)?);
+                frame.density.push(number(2 + 2 * axes)?);
+                frame.pressure.push(number(3 + 2 * axes)?);
+            }
+            Some("wall") => frame.wall_position.push(vector(2)?),
+            _ => return Err(bad("kind", line)),
+        }
+    }
+    Ok(frame)
+}
+
+fn bad(what: &str, line: u64) -> io::Error {
+    let message = format!("line {line}: not the {what} of a frame of particles");
+    io::Error::new(io::ErrorKind::InvalidData, message)
+}

@@ -28,8 +28,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// Steps are taken in pieces of about this many particle steps, so that a signal is heard soon.
-const PIECE: u64 = 20_000;
+/// Steps are taken in pieces of about this many particle steps: 30 ms of the fast executor, so that
+/// a signal is heard soon.
+const PIECE: u64 = 500_000;
 
 /// What an observer is told, several times a second.
 #[derive(Debug)]

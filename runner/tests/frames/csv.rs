@@ -1,7 +1,7 @@
 //! Frames as CSV.
 
 use loschmidt_runner::frame::Frame;
-use loschmidt_runner::output::particles_csv::CsvWriter;
+use loschmidt_runner::output::particles_csv::{self, CsvWriter};
 
 use crate::made::{bits, frames, particles};
 
@@ -67,4 +67,38 @@ id,kind,x_m,y_m,vx_m_per_s,vy_m_per_s,density_kg_per_m3,pressure_Pa
 13,wall,-0.01,0.3,0.0,0.0,NaN,NaN
 ";
     assert_eq!(csv(&frame), expected);
+}
+
+#[test]
+fn a_frame_is_read_back_to_the_same_bits() {
+    for frame in frames() {
+        let read = particles_csv::read(csv(&frame).as_bytes()).unwrap();
+        assert_eq!(read.dimension, frame.dimension);
+        assert_eq!(particles(&read), particles(&frame));
+    }
+}
+
+#[test]
+fn a_file_that_holds_no_frame_is_refused_with_its_line() {
+    let header = "id,kind,x_m,y_m,vx_m_per_s,vy_m_per_s,density_kg_per_m3,pressure_Pa\n";
+    for (text, words) in [
+        ("", "line 1: not the header"),
+        ("a,b,c,d,e,f,g,h\n", "line 1: not the header"),
+        ("0,fluid,1,2,3,4,5,six\n", "line 2: not the number"),
+        (
+            "0,fluid,1,2,3,4,5,6\n1,gas,1,2,3,4,5,6\n",
+            "line 3: not the kind",
+        ),
+        ("-1,fluid,1,2,3,4,5,6\n", "line 2: not the id"),
+        ("0,fluid,1,2,3\n", "found record with 5 fields"),
+    ] {
+        let text = match text.chars().next() {
+            Some('0'..='9' | '-') => header.to_owned() + text,
+            _ => text.to_owned(),
+        };
+        let error = particles_csv::read(text.as_bytes())
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(words), "{words:?} in {error:?}");
+    }
 }

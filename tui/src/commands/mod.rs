@@ -1,6 +1,7 @@
 //! The commands.
 
 mod check;
+mod movie;
 mod reproduce;
 mod run;
 mod scenes;
@@ -18,6 +19,7 @@ pub fn execute(arguments: Arguments) -> Result<ExitCode, Failure> {
         None => run::run(&RunArguments::default()),
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Resume(arguments)) => run::resume(&arguments),
+        Some(Command::Movie(arguments)) => movie::movie(&arguments),
         Some(Command::Scenes(arguments)) => scenes::scenes(&arguments),
         Some(Command::Reproduce(arguments)) => reproduce::reproduce(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),

@@ -102,7 +102,7 @@ fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<Exit
 
 /// A flag that the signals to stop set. Repeated ones change nothing: the run stops after the step
 /// it is at, and its snapshot and last words are not to be lost to an impatient second Ctrl-C.
-pub fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
+pub(super) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in STOP {
         signal_hook::flag::register(signal, Arc::clone(&stop))?;

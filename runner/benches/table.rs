@@ -1,0 +1,92 @@
+//! Prints the README's table of speeds:
+//!
+//! ```text
+//! cargo bench -p loschmidt-runner --bench table [-- SIZE…]
+//! ```
+//!
+//! Each column is nanoseconds of wall time for one particle and step. In every round each of the
+//! executors runs the same number of steps in turn, from the same [`states`]; the least of the
+//! rounds is kept, which on a shared machine is the one that was disturbed least.
+
+mod states;
+
+use loschmidt_runner::fast::Backend;
+use loschmidt_runner::{ExecutorKind, Player};
+use states::{SIZES, Size, options, player, state};
+use std::time::Instant;
+
+const ROUNDS: usize = 7;
+/// Particle steps of a fast executor in a round.
+const WORK: f64 = 4e6;
+
+fn main() {
+    // cargo bench adds --bench.
+    let only: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| a != "--bench")
+        .collect();
+    let backends: Vec<Backend> = Backend::ALL
+        .into_iter()
+        .filter(|backend| backend.is_available())
+        .collect();
+    let names: Vec<&str> = backends.iter().map(|backend| backend.name()).collect();
+    println!(
+        "| state | particles | serial | {} | 2 threads | serial : 1 thread | 1 : 2 threads |",
+        names.join(" | ")
+    );
+    println!(
+        "|---|---:|---:|{}---:|---:|---:|",
+        "---:|".repeat(names.len())
+    );
+    for disordered in [true, false] {
+        for size in SIZES {
+            if only.is_empty() || only.iter().any(|name| size.name.contains(name.as_str())) {
+                row(size, disordered, &backends);
+            }
+        }
+    }
+}
+
+fn row(size: Size, disordered: bool, backends: &[Backend]) {
+    let state = state(size, disordered);
+    let fast = |threads, backend| player(&state, options(ExecutorKind::Fast, threads, backend));
+    let mut players = vec![player(
+        &state,
+        options(ExecutorKind::Serial, 1, Backend::Baseline),
+    )];
+    players.extend(backends.iter().map(|backend| fast(1, *backend)));
+    players.push(fast(2, Backend::best()));
+    let particles = state.1.fluid.len();
+    drop(state);
+    let mut least = vec![f64::INFINITY; players.len()];
+    for _ in 0..ROUNDS {
+        for (p, (player, least)) in players.iter_mut().zip(&mut least).enumerate() {
+            // A layout lasts for a few steps: some of its lives. The reference has none.
+            let steps = (WORK / particles as f64).clamp(14.0, 700.0) as u64;
+            let steps = if p == 0 { steps.div_ceil(7) } else { steps };
+            *least = least.min(nanoseconds(player, steps));
+        }
+    }
+    let serial = least[0];
+    let one = least[1];
+    let two = least[least.len() - 1];
+    let kind = if disordered {
+        "disordered"
+    } else {
+        "near a lattice"
+    };
+    let cells: Vec<String> = least.iter().map(|ns| format!("{ns:.0}")).collect();
+    println!(
+        "| {size}, {kind} | {particles} | {} | {:.1} | {:.2} |",
+        cells.join(" | "),
+        serial / one,
+        one / two
+    );
+}
+
+fn nanoseconds(player: &mut Player, steps: u64) -> f64 {
+    let particles = player.home().id.len() as f64;
+    let before = Instant::now();
+    player.advance(steps).expect("numbers in range");
+    before.elapsed().as_secs_f64() * 1e9 / (particles * steps as f64)
+}

@@ -1,0 +1,194 @@
+//! What the colour of a particle says.
+
+use crate::colour::{Colormap, Rgb};
+use crate::home::Home;
+use loschmidt_runner::Frame;
+use std::sync::Arc;
+
+/// What the colour of a particle says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Colouring {
+    /// Its speed.
+    #[default]
+    Speed,
+    /// Its density.
+    Density,
+    /// Its pressure.
+    Pressure,
+    /// Its height at home.
+    InitialHeight,
+    /// Its distance from home.
+    Displacement,
+    /// Colours of its own, in the order of the ids: those of a picture, by
+    /// [`crate::Picture::tint`].
+    Picture(Arc<[Rgb]>),
+}
+
+impl Colouring {
+    /// Those that a number and a legend belong to.
+    pub const MEASURED: [Self; 5] = [
+        Self::Speed,
+        Self::Density,
+        Self::Pressure,
+        Self::InitialHeight,
+        Self::Displacement,
+    ];
+
+    /// The name used on the command line.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Speed => "speed",
+            Self::Density => "density",
+            Self::Pressure => "pressure",
+            Self::InitialHeight => "initial-height",
+            Self::Displacement => "displacement",
+            Self::Picture(_) => "picture",
+        }
+    }
+
+    /// The measured one of this name.
+    #[must_use]
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::MEASURED.into_iter().find(|c| c.name() == name)
+    }
+
+    /// Title of the legend.
+    #[must_use]
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Speed => "speed",
+            Self::Density => "density",
+            Self::Pressure => "pressure",
+            Self::InitialHeight => "initial height",
+            Self::Displacement => "distance from home",
+            Self::Picture(_) => "picture",
+        }
+    }
+
+    /// Unit of the legend. In the plane a run is a metre deep.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Speed => "m/s",
+            Self::Density => "kg/m³",
+            Self::Pressure => "Pa",
+            Self::InitialHeight | Self::Displacement => "m",
+            Self::Picture(_) => "",
+        }
+    }
+
+    /// The colour map that suits it.
+    #[must_use]
+    pub fn colormap(&self) -> Colormap {
+        match self {
+            Self::Speed | Self::Picture(_) | Self::InitialHeight => Colormap::Viridis,
+            Self::Density | Self::Pressure => Colormap::CoolWarm,
+            Self::Displacement => Colormap::Magma,
+        }
+    }
+
+    /// The numbers at the ends of the legend, the same for a whole run.
+    #[must_use]
+    pub fn range(&self, home: &Home) -> [f64; 2] {
+        let u2 = home.speed * home.speed;
+        match self {
+            Self::Speed => [0.0, round_number(home.speed)],
+            Self::Density => {
+                let swing = round_number(3.0 * u2 / (home.sound_speed * home.sound_speed));
+                [1.0 - swing, 1.0 + swing].map(|x| x * home.reference_density)
+            }
+            Self::Pressure => {
+                let swing = round_number(home.reference_density * u2);
+                [-swing, swing]
+            }
+            Self::InitialHeight => [home.fluid.low[home.up], home.fluid.high[home.up]],
+            Self::Displacement => {
+                let largest = home.fluid.size().into_iter().fold(0.0, f64::max);
+                [0.0, round_number(largest)]
+            }
+            Self::Picture(_) => [0.0, 1.0],
+        }
+    }
+
+    /// The number of the particle at this place in the frame's lists, in the legend's unit.
+    #[must_use]
+    pub fn value(&self, frame: &Frame, home: &Home, place: usize) -> f64 {
+        let at_home = |place: usize| {
+            let id = frame.id.get(place).map_or(place, |&id| id as usize);
+            home.position.get(id).copied().unwrap_or_default()
+        };
+        match self {
+            Self::Speed => length(frame.velocity[place]),
+            Self::Density => frame.density[place],
+            Self::Pressure => frame.pressure[place],
+            Self::InitialHeight => at_home(place)[home.up],
+            Self::Displacement => {
+                let (x, h) = (frame.position[place], at_home(place));
+                length(std::array::from_fn(|k| x[k] - h[k]))
+            }
+            Self::Picture(_) => 0.0,
+        }
+    }
+}
+
+/// The largest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is at most a hair
+/// above `x`; 1 for what is not positive.
+pub(crate) fn round_number(x: f64) -> f64 {
+    if !(x > 0.0 && x.is_finite()) {
+        return 1.0;
+    }
+    let mut power = 1.0;
+    while power > x {
+        power /= 10.0;
+    }
+    while power * 10.0 <= x {
+        power *= 10.0;
+    }
+    const STEPS: [f64; 10] = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
+    let fits = |step: &&f64| **step * power <= x * 1.05;
+    power * STEPS.iter().rfind(fits).unwrap_or(&1.0)
+}
+
+fn length(x: [f64; 3]) -> f64 {
+    (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt()
+}
+
+/// Colours by number, with everything looked up beforehand.
+pub(crate) struct Painter<'a> {
+    colouring: &'a Colouring,
+    colours: Vec<Rgb>,
+    low: f64,
+    factor: f64,
+}
+
+impl<'a> Painter<'a> {
+    pub fn new(colouring: &'a Colouring, colormap: Colormap, range: [f64; 2]) -> Self {
+        const COLOURS: usize = 256;
+        let width = range[1] - range[0];
+        Self {
+            colouring,
+            colours: (0..COLOURS)
+                .map(|n| colormap.at(n as f64 / (COLOURS - 1) as f64))
+                .collect(),
+            low: range[0],
+            factor: if width > 0.0 {
+                COLOURS as f64 / width
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// The colour of the particle at this place.
+    pub fn colour(&self, frame: &Frame, home: &Home, place: usize) -> Rgb {
+        if let Colouring::Picture(colours) = self.colouring {
+            let id = frame.id.get(place).map_or(place, |&id| id as usize);
+            return colours.get(id).copied().unwrap_or_default();
+        }
+        let value = self.colouring.value(frame, home, place);
+        // The conversion takes what is below, and NaN, to 0.
+        let n = ((value - self.low) * self.factor) as usize;
+        self.colours[n.min(self.colours.len() - 1)]
+    }
+}

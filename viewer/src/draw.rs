@@ -1,0 +1,459 @@
+//! The whole picture: one or two fields of particles, and a panel with time, arrow, plots and legend.
+//!
+//! The panel stands to the right of the fields or below them, where it leaves them more room. Sizes follow from
+//! the em, which follows from the size of the picture: readable from 320 x 240 to 4K.
+
+use crate::camera::View;
+use crate::colour::{Colormap, Theme};
+use crate::colouring::Colouring;
+use crate::field;
+use crate::history::History;
+use crate::home::Home;
+use crate::plot;
+use crate::raster::{Mask, Raster, Rect};
+use crate::text::{self, Style, Weight};
+use loschmidt_runner::Frame;
+
+/// How a frame is drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// The camera.
+    pub view: View,
+    /// What the colours say.
+    pub colouring: Colouring,
+    /// The map from numbers to colours; `None` for the one that suits the colouring.
+    pub colormap: Option<Colormap>,
+    /// The numbers at its ends; `None` for [`Colouring::range`].
+    pub range: Option<[f64; 2]>,
+    /// Colours of everything else.
+    pub theme: Theme,
+    /// Radius of a disc, in radii of a disc (in 3D a ball) of the particle's volume.
+    pub disc: f64,
+    /// Title of the panel; `None` for the name of the scene.
+    pub title: Option<String>,
+    /// A line under the title.
+    pub caption: String,
+    /// How far the arrow of time has turned, 0 forward to 1 backward; `None` takes it from the frame.
+    pub turn: Option<f64>,
+    /// Whether there is a panel.
+    pub panel: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            view: View::default(),
+            colouring: Colouring::default(),
+            colormap: None,
+            range: None,
+            theme: Theme::default(),
+            disc: 1.2,
+            title: None,
+            caption: String::new(),
+            turn: None,
+            panel: true,
+        }
+    }
+}
+
+impl Look {
+    /// The colour map at work.
+    #[must_use]
+    pub fn colormap(&self) -> Colormap {
+        self.colormap.unwrap_or_else(|| self.colouring.colormap())
+    }
+}
+
+/// A run in the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Pane<'a> {
+    /// Its frame.
+    pub frame: &'a Frame,
+    /// Its energies and entropies so far.
+    pub history: &'a History,
+    /// Its name; may be empty.
+    pub label: &'a str,
+    /// How it is coloured, where that differs from the look.
+    pub colouring: Option<&'a Colouring>,
+}
+
+impl<'a> Pane<'a> {
+    /// A run without a name, coloured as the look says.
+    #[must_use]
+    pub fn new(frame: &'a Frame, history: &'a History) -> Self {
+        Self {
+            frame,
+            history,
+            label: "",
+            colouring: None,
+        }
+    }
+}
+
+/// Where the parts of a picture are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// The particles, one rectangle per pane.
+    pub fields: Vec<Rect>,
+    /// Plots and text; `None` without a panel.
+    pub panel: Option<Rect>,
+    /// Whether the panel is to the right.
+    pub beside: bool,
+    /// Size of plain text, pixels.
+    pub em: usize,
+}
+
+/// The smallest picture with a panel, pixels.
+const SMALLEST: (usize, usize) = (200, 150);
+
+impl Layout {
+    /// The layout of a picture of `width` times `height` pixels with so many panes.
+    #[must_use]
+    pub fn new(home: &Home, look: &Look, panes: usize, width: usize, height: usize) -> Self {
+        let em = (5 + height.min(width * 9 / 16) / 50).max(10);
+        let whole = Rect::new(0, 0, width, height);
+        if !look.panel || width < SMALLEST.0 || height < SMALLEST.1 {
+            return Self {
+                fields: side_by_side(whole, panes),
+                panel: None,
+                beside: false,
+                em,
+            };
+        }
+        let column = (15 * em).min(width / 2);
+        let bar = (13 * em / 2).min(height / 2);
+        let beside = Rect::new(0, 0, width - column, height);
+        let above = Rect::new(0, 0, width, height - bar);
+        let size = home.shown.size();
+        let aspect = if home.dimension == 2 && size[1] > 0.0 {
+            size[0] / size[1]
+        } else {
+            1.3
+        };
+        let scale = |fields: Rect| {
+            let width = fields.width as f64 / panes.max(1) as f64;
+            (width / aspect).min(fields.height as f64)
+        };
+        let to_the_right = scale(beside) > scale(above);
+        let (fields, panel) = if to_the_right {
+            (beside, Rect::new(width - column, 0, column, height))
+        } else {
+            (above, Rect::new(0, height - bar, width, bar))
+        };
+        Self {
+            fields: side_by_side(fields, panes),
+            panel: Some(panel),
+            beside: to_the_right,
+            em,
+        }
+    }
+}
+
+fn side_by_side(all: Rect, panes: usize) -> Vec<Rect> {
+    let edge = |n: usize| all.x + all.width * n / panes.max(1);
+    (0..panes)
+        .map(|n| Rect::new(edge(n), all.y, edge(n + 1) - edge(n), all.height))
+        .collect()
+}
+
+/// Draws one or more runs of a scene side by side; `width` and `height` in pixels.
+///
+/// The panel shows time, arrow and energy of the first.
+#[must_use]
+pub fn draw(panes: &[Pane<'_>], home: &Home, look: &Look, width: usize, height: usize) -> Raster {
+    let mut raster = Raster::new(width, height, look.theme.background);
+    let layout = Layout::new(home, look, panes.len(), width, height);
+    for (pane, &rect) in panes.iter().zip(&layout.fields) {
+        let own = pane.colouring.map(|colouring| Look {
+            colouring: colouring.clone(),
+            ..look.clone()
+        });
+        field::paint(
+            &mut raster,
+            rect,
+            pane.frame,
+            home,
+            own.as_ref().unwrap_or(look),
+        );
+        if layout.panel.is_some() {
+            label(&mut raster, rect, pane.label, look, layout.em);
+        }
+    }
+    let theme = &look.theme;
+    for rect in layout.fields.iter().skip(1) {
+        let width = (layout.em / 12).max(1);
+        let line = Rect::new(rect.x - width / 2, rect.y, width, rect.height);
+        raster.fill(line, theme.rule, 255);
+    }
+    if let (Some(panel), Some(first)) = (layout.panel, panes.first()) {
+        raster.fill(panel, theme.panel, 255);
+        let parts = Parts {
+            panes,
+            first,
+            home,
+            look,
+            em: layout.em,
+        };
+        if layout.beside {
+            raster.fill(Rect { width: 1, ..panel }, theme.rule, 255);
+            parts.column(&mut raster, panel);
+        } else {
+            raster.fill(Rect { height: 1, ..panel }, theme.rule, 255);
+            parts.bar(&mut raster, panel);
+        }
+    }
+    raster
+}
+
+/// The name of a run in the upper corner of its field.
+fn label(raster: &mut Raster, rect: Rect, text: &str, look: &Look, em: usize) {
+    let style = Style {
+        size: em,
+        weight: Weight::SemiBold,
+        colour: look.theme.text,
+    };
+    let text = text::fitted(&style, text, rect.width.saturating_sub(em) as f64);
+    let middle = rect.x as f64 + 0.5 * rect.width as f64;
+    text::write_around(raster, &style, middle, (rect.y + em + em / 2) as i64, &text);
+}
+
+/// The parts of the panel.
+struct Parts<'a> {
+    panes: &'a [Pane<'a>],
+    first: &'a Pane<'a>,
+    home: &'a Home,
+    look: &'a Look,
+    em: usize,
+}
+
+impl Parts<'_> {
+    fn style(&self, size: usize) -> Style {
+        Style {
+            size,
+            weight: Weight::Medium,
+            colour: self.look.theme.text,
+        }
+    }
+
+    /// Size of small text, pixels.
+    fn small(&self) -> usize {
+        (self.em * 6 / 7).max(9)
+    }
+
+    fn has_legend(&self) -> bool {
+        !matches!(self.look.colouring, Colouring::Picture(_))
+    }
+
+    /// From top to bottom: title, time, plots, legend.
+    fn column(&self, raster: &mut Raster, panel: Rect) {
+        let em = self.em;
+        let inner = panel.shrunk(em);
+        let mut y = inner.y;
+        y += self.title(raster, Rect { y, ..inner });
+        self.clock(raster, Rect::new(inner.x, y, inner.width, 4 * em));
+        y += 5 * em;
+        let mut bottom = inner.y + inner.height;
+        if self.has_legend() {
+            let height = 7 * em / 2;
+            bottom = bottom.saturating_sub(height);
+            let rect = Rect::new(inner.x, bottom, inner.width, height);
+            self.legend(raster, rect);
+            bottom = bottom.saturating_sub(em);
+        }
+        let room = bottom.saturating_sub(y);
+        let height = (room.saturating_sub(em) / 2).min(inner.width);
+        if height >= 5 * em {
+            self.energy(raster, Rect::new(inner.x, y, inner.width, height));
+            let y = y + height + em;
+            self.entropy(raster, Rect::new(inner.x, y, inner.width, height));
+        } else if room >= 5 * em {
+            self.entropy(raster, Rect::new(inner.x, y, inner.width, room));
+        }
+    }
+
+    /// From left to right: time and title, plots, legend.
+    fn bar(&self, raster: &mut Raster, panel: Rect) {
+        let em = self.em;
+        let inner = Rect::new(
+            panel.x + em,
+            panel.y + em / 2,
+            panel.width.saturating_sub(2 * em),
+            panel.height.saturating_sub(em),
+        );
+        let clock = (12 * em).min(inner.width);
+        let used = self.title(
+            raster,
+            Rect {
+                width: clock,
+                ..inner
+            },
+        );
+        let height = inner.height.saturating_sub(used);
+        self.clock(raster, Rect::new(inner.x, inner.y + used, clock, height));
+        let mut left = inner.x + clock + em;
+        let mut right = inner.x + inner.width;
+        if self.has_legend() && right.saturating_sub(left) >= 8 * em {
+            let width = (12 * em).min(right - left);
+            right -= width;
+            let height = 7 * em / 2;
+            let y = inner.y + (inner.height - height) / 2;
+            self.legend(raster, Rect::new(right, y, width, height));
+            right = right.saturating_sub(3 * em / 2);
+        }
+        let room = right.saturating_sub(left);
+        let plot = |x, width| Rect::new(x, inner.y, width, inner.height);
+        if room >= 22 * em {
+            let width = (room - 2 * em) / 2;
+            self.energy(raster, plot(left, width));
+            left += width + 2 * em;
+            self.entropy(raster, plot(left, width));
+        } else if room >= 7 * em {
+            self.entropy(raster, plot(left, room));
+        }
+    }
+
+    /// Title and caption; returns their height.
+    fn title(&self, raster: &mut Raster, rect: Rect) -> usize {
+        let em = self.em;
+        let title = self.look.title.as_deref().unwrap_or(&self.home.name);
+        let style = Style {
+            weight: Weight::SemiBold,
+            ..self.style(em * 6 / 5)
+        };
+        let title = text::fitted(&style, title, rect.width as f64);
+        let mut y = rect.y + em * 6 / 5;
+        text::write(raster, &style, rect.x as f64, y as i64, &title);
+        if !self.look.caption.is_empty() {
+            let style = Style {
+                colour: self.look.theme.faint,
+                ..self.style(self.small())
+            };
+            let caption = text::fitted(&style, &self.look.caption, rect.width as f64);
+            y += self.small() * 7 / 5;
+            text::write(raster, &style, rect.x as f64, y as i64, &caption);
+        }
+        y + em / 2 - rect.y
+    }
+
+    /// The arrow of time on a dial, the time, and which way it runs.
+    fn clock(&self, raster: &mut Raster, rect: Rect) {
+        let theme = &self.look.theme;
+        let frame = self.first.frame;
+        let turn = self
+            .look
+            .turn
+            .unwrap_or(f64::from(u8::from(frame.way_back)))
+            .clamp(0.0, 1.0);
+        let colour = theme
+            .forward
+            .mix(theme.backward, (turn * 255.0).round() as u8);
+        let radius = (rect.height as f64 / 2.0).min(1.7 * self.em as f64);
+        let centre = [
+            rect.x as f64 + radius,
+            rect.y as f64 + rect.height as f64 / 2.0,
+        ];
+        dial(raster, centre, radius, turn, theme.rule, colour);
+        let x = rect.x as f64 + 2.0 * radius + 0.7 * self.em as f64;
+        let middle = centre[1] as i64;
+        let big = Style {
+            weight: Weight::SemiBold,
+            ..self.style(self.em * 10 / 7)
+        };
+        // A state a hair before home is at home.
+        let time = format!("{:.3}", frame.time).replace("-0.000", "0.000");
+        text::write(raster, &big, x, middle, &format!("{time} s"));
+        let small = Style {
+            colour,
+            ..self.style(self.small())
+        };
+        let way = if turn > 0.5 { "backward" } else { "forward" };
+        let y = middle + self.small() as i64 * 4 / 3;
+        text::write(raster, &small, x, y, way);
+    }
+
+    fn energy(&self, raster: &mut Raster, rect: Rect) {
+        let history = self.first.history;
+        plot::energy(raster, rect, history, &self.look.theme, self.small());
+    }
+
+    fn entropy(&self, raster: &mut Raster, rect: Rect) {
+        let runs: Vec<(&str, &History)> = self
+            .panes
+            .iter()
+            .map(|pane| (pane.label, pane.history))
+            .collect();
+        plot::entropy(raster, rect, &runs, &self.look.theme, self.small());
+    }
+
+    /// The colour map between its numbers, with title and unit.
+    fn legend(&self, raster: &mut Raster, rect: Rect) {
+        let colouring = &self.look.colouring;
+        let unit = colouring.unit();
+        let style = self.style(self.small());
+        let title = format!("{} / {unit}", colouring.title());
+        let title = text::fitted(&style, &title, rect.width as f64);
+        let size = style.size;
+        text::write(
+            raster,
+            &style,
+            rect.x as f64,
+            (rect.y + size) as i64,
+            &title,
+        );
+        let bar = Rect::new(rect.x, rect.y + size * 3 / 2, rect.width, size * 4 / 5);
+        let map = self.look.colormap();
+        for column in 0..bar.width {
+            let part = (column as f64 + 0.5) / bar.width as f64;
+            let line = Rect::new(bar.x + column, bar.y, 1, bar.height);
+            raster.fill(line, map.at(part), 255);
+        }
+        let range = self
+            .look
+            .range
+            .unwrap_or_else(|| colouring.range(self.home));
+        let faint = Style {
+            colour: self.look.theme.faint,
+            ..style
+        };
+        let y = (bar.y + bar.height + size + size / 5) as i64;
+        let x = rect.x as f64;
+        let width = rect.width as f64;
+        text::write(raster, &faint, x, y, &plot::number(range[0]));
+        let middle = plot::number(0.5 * (range[0] + range[1]));
+        text::write_around(raster, &faint, x + 0.5 * width, y, &middle);
+        text::write_left_of(raster, &faint, x + width, y, &plot::number(range[1]));
+    }
+}
+
+/// A dial with one hand: to the right is forward, to the left backward.
+fn dial(
+    raster: &mut Raster,
+    centre: [f64; 2],
+    radius: f64,
+    turn: f64,
+    ring: crate::Rgb,
+    colour: crate::Rgb,
+) {
+    let room = Rect::new(
+        (centre[0] - radius - 2.0).max(0.0) as usize,
+        (centre[1] - radius - 2.0).max(0.0) as usize,
+        (2.0 * radius + 5.0) as usize,
+        (2.0 * radius + 5.0) as usize,
+    );
+    let width = 0.11 * radius;
+    let mut mask = Mask::new(room);
+    mask.ring(centre, radius - width, width.max(1.0));
+    mask.paint(raster, ring, 255);
+    let (sin, cos) = libm::sincos(std::f64::consts::PI * turn);
+    // Along the hand, and across it; rows grow downwards.
+    let at = |along: f64, across: f64| {
+        [
+            centre[0] + radius * (along * cos - across * sin),
+            centre[1] - radius * (along * sin + across * cos),
+        ]
+    };
+    let mut mask = Mask::new(room);
+    mask.line(at(-0.58, 0.0), at(0.2, 0.0), 0.2 * radius);
+    mask.triangle([at(0.64, 0.0), at(0.08, 0.36), at(0.08, -0.36)]);
+    mask.paint(raster, colour, 255);
+}

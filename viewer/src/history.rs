@@ -1,0 +1,105 @@
+//! Energy and entropy along both legs: what the plots show.
+
+use loschmidt_runner::run::Row;
+
+/// A moment of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Steps taken over both legs.
+    pub step: u64,
+    /// Physical time, s: falls on the way back.
+    pub time: f64,
+    /// Whether time had been turned.
+    pub way_back: bool,
+    /// Kinetic energy, J (per m of depth in 2D, as the others).
+    pub kinetic: f64,
+    /// Internal energy, J.
+    pub internal: f64,
+    /// Gravitational energy, J.
+    pub gravitational: f64,
+    /// Energy of the walls, J.
+    pub wall: f64,
+    /// Reduced Boltzmann entropy.
+    pub entropy: f64,
+    /// Its equilibrium value for the kinetic energy; `None` at rest.
+    pub equilibrium: Option<f64>,
+}
+
+impl Point {
+    /// The sum of the energies, J.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.internal + self.gravitational + self.wall
+    }
+}
+
+impl From<&Row> for Point {
+    fn from(row: &Row) -> Self {
+        Self {
+            step: row.step,
+            time: row.time_s,
+            way_back: row.leg == 2,
+            kinetic: row.kinetic,
+            internal: row.internal,
+            gravitational: row.gravitational,
+            wall: row.wall,
+            entropy: row.entropy,
+            equilibrium: row.equilibrium_entropy_of_energy,
+        }
+    }
+}
+
+/// The moments of a run so far, in the order they were lived through.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    points: Vec<Point>,
+    span: f64,
+}
+
+impl History {
+    /// Without a moment yet. `span`: the largest physical time the plots have room for, s; it
+    /// grows when a later moment comes.
+    #[must_use]
+    pub fn new(span: f64) -> Self {
+        Self {
+            points: Vec::new(),
+            span,
+        }
+    }
+
+    /// The history of a series.
+    #[must_use]
+    pub fn of_rows(rows: &[Row], span: f64) -> Self {
+        let mut history = Self::new(span);
+        rows.iter().for_each(|row| history.push(row.into()));
+        history
+    }
+
+    /// Adds a moment.
+    pub fn push(&mut self, point: Point) {
+        self.span = self.span.max(point.time);
+        self.points.push(point);
+    }
+
+    /// The moments.
+    #[must_use]
+    pub fn points(&self) -> &[Point] {
+        &self.points
+    }
+
+    /// The largest physical time of the plots, s.
+    #[must_use]
+    pub fn span(&self) -> f64 {
+        self.span
+    }
+
+    /// The history as it was after `step` steps.
+    #[must_use]
+    pub fn until(&self, step: u64) -> Self {
+        let end = self.points.partition_point(|point| point.step <= step);
+        Self {
+            points: self.points[..end].to_vec(),
+            span: self.span,
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Home: what a picture has to know of a scene besides the frame.
+//!
+//! The initial places of the particles (for height, displacement and the tint), the box that the
+//! view shows, and the scales of speed and pressure by which colours are chosen, so that one colour
+//! means the same in all frames of a run:
+//!
+//! - speed U = max(√(2 g H), twice the fastest first velocity), H the height of the fluid (m) along the
+//!   gravity g (m/s²); a tenth of the sound speed where both are zero,
+//! - pressure ρ₀ U², density ρ₀ (1 ± 3 U²/c²).
+
+use loschmidt_runner::Frame;
+use loschmidt_runner::scene::{Dimension, Scene};
+
+/// A box along the axes, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Box3 {
+    /// Lower corner, m.
+    pub low: [f64; 3],
+    /// Upper corner, m.
+    pub high: [f64; 3],
+}
+
+impl Box3 {
+    /// The smallest box around these points; `None` without points.
+    pub fn around<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> Option<Self> {
+        points
+            .map(|&x| Self { low: x, high: x })
+            .reduce(Self::joined)
+    }
+
+    /// The smallest box around both.
+    #[must_use]
+    pub fn joined(self, other: Self) -> Self {
+        Self {
+            low: std::array::from_fn(|k| self.low[k].min(other.low[k])),
+            high: std::array::from_fn(|k| self.high[k].max(other.high[k])),
+        }
+    }
+
+    /// Sizes, m.
+    #[must_use]
+    pub fn size(&self) -> [f64; 3] {
+        std::array::from_fn(|k| self.high[k] - self.low[k])
+    }
+
+    /// Centre, m.
+    #[must_use]
+    pub fn centre(&self) -> [f64; 3] {
+        std::array::from_fn(|k| 0.5 * (self.low[k] + self.high[k]))
+    }
+
+    fn grown(self, by: f64, axes: usize) -> Self {
+        let by = |k: usize| if k < axes { by } else { 0.0 };
+        Self {
+            low: std::array::from_fn(|k| self.low[k] - by(k)),
+            high: std::array::from_fn(|k| self.high[k] + by(k)),
+        }
+    }
+}
+
+/// What stays the same in all pictures of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Home {
+    /// Name of the scene.
+    pub name: String,
+    /// 2 or 3.
+    pub dimension: usize,
+    /// Side of the square or cube that a particle stands for, m.
+    pub spacing: f64,
+    /// Density without pressure, kg/m³.
+    pub reference_density: f64,
+    /// Sound speed, m/s.
+    pub sound_speed: f64,
+    /// The scale U of speeds, m/s.
+    pub speed: f64,
+    /// The axis against gravity: 0 x, 1 y, 2 z. It is y where there is no gravity.
+    pub up: usize,
+    /// Places of the fluid at home, m, in the order of the ids.
+    pub position: Vec<[f64; 3]>,
+    /// The box around the fluid at home, m.
+    pub fluid: Box3,
+    /// The box that the view shows, m.
+    pub shown: Box3,
+    /// The box around the walls, m.
+    pub walls: Option<Box3>,
+    /// Physical time of the turnaround, or of the end of a one-way run, s.
+    pub span: f64,
+}
+
+impl Home {
+    /// The home of a scene. `frame`: its first frame.
+    #[must_use]
+    pub fn new(scene: &Scene, frame: &Frame) -> Self {
+        let dimension = match scene.dimension {
+            Dimension::Two => 2,
+            Dimension::Three => 3,
+        };
+        let spacing = scene.particle_spacing;
+        let span = scene.steps_out() as f64 * scene.time_step();
+        let nothing = Box3 {
+            low: [0.0; 3],
+            high: [0.0; 3],
+        };
+        let fluid = Box3::around(frame.position.iter())
+            .map_or(nothing, |b| b.grown(0.5 * spacing, dimension));
+        let walls =
+            Box3::around(frame.wall_position.iter()).map(|b| b.grown(0.5 * spacing, dimension));
+        let shown = match walls {
+            Some(walls) => walls.joined(fluid),
+            None => fluid.grown(free_flight(frame, fluid, span), dimension),
+        };
+        let gravity = scene.gravity.uniform;
+        let up = (0..3)
+            .filter(|&k| gravity[k] != 0.0)
+            .max_by(|&a, &b| gravity[a].abs().total_cmp(&gravity[b].abs()))
+            .unwrap_or(1);
+        let fall = 2.0 * gravity[up].abs() * fluid.size()[up];
+        let speed = fall.sqrt().max(2.0 * fastest(frame));
+        Self {
+            name: scene.name.clone(),
+            dimension,
+            spacing,
+            reference_density: scene.fluid.reference_density,
+            sound_speed: scene.fluid.sound_speed,
+            speed: if speed > 0.0 {
+                speed
+            } else {
+                0.1 * scene.fluid.sound_speed
+            },
+            up,
+            position: frame.position.clone(),
+            fluid,
+            shown,
+            walls,
+            span,
+        }
+    }
+}
+
+/// Without walls the view has room on every side for half of what the fastest particle could fly
+/// until the turnaround, and for a quarter of the fluid at least, m.
+fn free_flight(frame: &Frame, fluid: Box3, span: f64) -> f64 {
+    let largest = fluid.size().into_iter().fold(0.0, f64::max);
+    (0.5 * fastest(frame) * span).clamp(0.25 * largest, 2.0 * largest)
+}
+
+/// The largest speed, m/s.
+fn fastest(frame: &Frame) -> f64 {
+    let squares = frame
+        .velocity
+        .iter()
+        .map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    squares.fold(0.0, f64::max).sqrt()
+}

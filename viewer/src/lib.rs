@@ -1,0 +1,45 @@
+//! The viewer of Loschmidt: turns a frame into pixels, once, for files, window and terminal.
+//!
+//! ```text
+//! Frame + Home + Look --draw--> Raster -> PNG, GIF, MP4 | window | half-blocks of a terminal
+//! ```
+//!
+//! 1. [`raster`]: the pixels. [`colour`]: colour maps and themes. [`text`]: the embedded font.
+//! 2. [`home`]: what a picture needs to know of a scene besides the frame. [`camera`]: where a
+//!    point of the scene is on the screen.
+//! 3. [`colouring`]: what the colour of a particle says. [`picture`]: a picture laid over the
+//!    initial state.
+//! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
+//!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
+//! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
+//!
+//! A picture is a function of its arguments alone: the same pixels for any number of threads and on
+//! every machine. Every thread owns the rows it draws, sums over particles are sums of integers or
+//! in the order of the ids, and of the functions beyond `+ - * / sqrt` only those of `libm` are used.
+
+#![forbid(unsafe_code)]
+
+pub mod camera;
+pub mod colour;
+pub mod colouring;
+pub mod draw;
+pub mod field;
+pub mod history;
+pub mod home;
+pub mod movie;
+pub mod picture;
+pub mod plot;
+pub mod png;
+pub mod raster;
+mod stamp;
+pub mod text;
+
+pub use camera::{Projection, View};
+pub use colour::{Colormap, Rgb, Theme};
+pub use colouring::Colouring;
+pub use draw::{Look, Pane, draw};
+pub use field::field;
+pub use history::{History, Point};
+pub use home::Home;
+pub use picture::Picture;
+pub use raster::{Raster, Rect};

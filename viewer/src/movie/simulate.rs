@@ -1,0 +1,349 @@
+//! Pictures of runs that are simulated for them.
+//!
+//! One run, or two of the same scene in different arithmetic. After a picture both are at the same
+//! step; that is where an interrupted export goes on.
+
+use super::directory::{Movie, replace};
+use super::error::MovieError;
+use super::{Progress, Schedule};
+use crate::draw::{Look, Pane, draw};
+use crate::history::History;
+use crate::home::Home;
+use loschmidt_core::digest::hash;
+use loschmidt_runner::output::Snapshot;
+use loschmidt_runner::output::series::{self, SeriesWriter};
+use loschmidt_runner::player::Return;
+use loschmidt_runner::run::Row;
+use loschmidt_runner::{ArithmeticKind, Arrow, Frame, Player, SavedState};
+use std::fs::File;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+/// Steps are taken in pieces of about this many particle steps, so that a signal is heard soon.
+const PIECE: u64 = 20_000;
+
+/// Between two checkpoints.
+const PAUSE: Duration = Duration::from_secs(20);
+
+/// How a run of the movie ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fate {
+    /// Its arithmetic.
+    pub arithmetic: ArithmeticKind,
+    /// How far from home it is; `None` where it was not to come home.
+    pub home: Option<Return>,
+}
+
+/// How the runs of a movie ended, in the order of the panes.
+pub type Ending = Vec<Fate>;
+
+/// A run and what is known of it.
+struct Strand {
+    player: Player,
+    rows: Vec<Row>,
+    history: History,
+    /// The state after the latest picture.
+    kept: (SavedState, i64, Arrow),
+}
+
+/// Runs under way.
+struct Export<'a> {
+    strands: Vec<Strand>,
+    home: Home,
+    look: Look,
+    schedule: Schedule,
+    scene: [u8; 16],
+    comes_home: bool,
+    stop: &'a AtomicBool,
+}
+
+impl Movie {
+    /// Simulates the runs of these players, all of one scene and at home, and draws the pictures that
+    /// are not there yet. `observe` is told after every picture; when `stop` becomes true, the state is
+    /// kept and [`MovieError::Interrupted`] returned.
+    ///
+    /// # Errors
+    /// [`MovieError`].
+    pub fn simulate(
+        &mut self,
+        players: Vec<Player>,
+        mut observe: impl FnMut(&Progress),
+        stop: &AtomicBool,
+    ) -> Result<Ending, MovieError> {
+        let mut export = Export::new(self, players, stop)?;
+        let total = self.style.pictures;
+        let mut first = export.resume(self)?;
+        if first == 0 {
+            export.picture(self, 0)?;
+            export.keep();
+            first = 1;
+        }
+        let mut checkpoint = Instant::now();
+        for n in first..total {
+            observe(&export.progress(n));
+            let target = export.schedule.step(n);
+            let began = Instant::now();
+            let result = export.advance(target);
+            self.times.simulating += began.elapsed();
+            if !result? {
+                export.checkpoint(self)?;
+                return Err(MovieError::Interrupted {
+                    done: n.max(self.found()),
+                    total,
+                });
+            }
+            export.picture(self, n)?;
+            export.keep();
+            if checkpoint.elapsed() > PAUSE {
+                export.checkpoint(self)?;
+                checkpoint = Instant::now();
+            }
+        }
+        observe(&export.progress(total));
+        self.finish()?;
+        Ok(export.ending())
+    }
+}
+
+impl<'a> Export<'a> {
+    fn new(movie: &Movie, players: Vec<Player>, stop: &'a AtomicBool) -> Result<Self, MovieError> {
+        let mut strands = Vec::new();
+        let mut home = None;
+        let mut plan = None;
+        let mut scene = [0; 16];
+        for mut player in players {
+            if home.is_none() {
+                let frame = player.frame().map_err(|fault| fault_of(&player, fault))?;
+                home = Some(Home::new(player.scene(), &frame));
+                plan = Some(loschmidt_runner::Plan::of(player.scene()));
+                scene = hash(player.scene().to_toml().as_bytes());
+            }
+            strands.push(Strand {
+                history: History::new(home.as_ref().map_or(0.0, |home| home.span)),
+                kept: (player.save(), 0, Arrow::Forward),
+                rows: Vec::new(),
+                player,
+            });
+        }
+        let (Some(home), Some(plan)) = (home, plan) else {
+            return Err(MovieError::Run(loschmidt_runner::RunError::NoRows));
+        };
+        Ok(Self {
+            look: movie.style.look(&home),
+            schedule: Schedule::new(&plan, movie.style.pictures),
+            comes_home: plan.back == plan.out,
+            strands,
+            home,
+            scene,
+            stop,
+        })
+    }
+
+    fn progress(&self, done: usize) -> Progress {
+        Progress {
+            done,
+            total: self.schedule.pictures,
+            step: self.strands[0].player.steps_taken(),
+            steps: self.schedule.total,
+        }
+    }
+
+    /// Takes all runs to `target` steps over both legs; false where it was told to stop.
+    fn advance(&mut self, target: u64) -> Result<bool, MovieError> {
+        let out = self.schedule.out;
+        for strand in &mut self.strands {
+            let player = &mut strand.player;
+            let particles = player.home().id.len() as u64;
+            let piece = (PIECE / particles.max(1)).max(1);
+            while player.steps_taken() < target {
+                if self.stop.load(Ordering::Relaxed) {
+                    return Ok(false);
+                }
+                let step = player.steps_taken();
+                if step == out {
+                    player.turn();
+                }
+                let until = if step < out { target.min(out) } else { target };
+                player
+                    .advance((until - step).min(piece))
+                    .map_err(|fault| fault_of(player, fault))?;
+            }
+        }
+        Ok(!self.stop.load(Ordering::Relaxed))
+    }
+
+    /// Measures the runs and draws picture `n`, unless it is there.
+    fn picture(&mut self, movie: &mut Movie, n: usize) -> Result<(), MovieError> {
+        let began = Instant::now();
+        let leg = if self.strands[0].player.steps_taken() > self.schedule.out {
+            2
+        } else {
+            1
+        };
+        let wanted = n >= movie.found();
+        let mut frames: Vec<Frame> = Vec::new();
+        for strand in &mut self.strands {
+            let player = &mut strand.player;
+            let row = Row::measure(player, leg).map_err(|fault| fault_of(player, fault))?;
+            strand.history.push((&row).into());
+            strand.rows.push(row);
+            if wanted {
+                frames.push(player.frame().map_err(|fault| fault_of(player, fault))?);
+            }
+        }
+        movie.times.simulating += began.elapsed();
+        if !wanted {
+            return Ok(());
+        }
+        let began = Instant::now();
+        let look = Look {
+            turn: self.schedule.turn(n, movie.style.fps),
+            caption: self.caption(n),
+            ..self.look.clone()
+        };
+        let panes: Vec<Pane<'_>> = self
+            .strands
+            .iter()
+            .zip(&frames)
+            .map(|(strand, frame)| Pane {
+                label: self.label(strand),
+                ..Pane::new(frame, &strand.history)
+            })
+            .collect();
+        let (width, height) = movie.style.size;
+        let raster = draw(&panes, &self.home, &look, width, height);
+        movie.times.drawing += began.elapsed();
+        movie.times.pictures += 1;
+        movie.write_picture(n, &raster)
+    }
+
+    fn label(&self, strand: &Strand) -> &'static str {
+        match (self.strands.len(), strand.player.options().arithmetic) {
+            (1, _) => "",
+            (_, ArithmeticKind::Fixed) => "fixed point",
+            (_, ArithmeticKind::Float) => "floating point",
+        }
+    }
+
+    /// What stands under the title: at the end, whether the first run is at home.
+    fn caption(&mut self, n: usize) -> String {
+        let particles = self.strands[0].player.home().id.len();
+        if self.comes_home && n + 1 == self.schedule.pictures {
+            let exact = self.strands[0].player.compare_with_home().is_exact();
+            return if exact {
+                "home, every bit".to_owned()
+            } else {
+                "not home".to_owned()
+            };
+        }
+        format!("{} particles", with_commas(particles))
+    }
+
+    fn ending(&mut self) -> Ending {
+        let comes_home = self.comes_home;
+        self.strands
+            .iter_mut()
+            .map(|strand| Fate {
+                arithmetic: strand.player.options().arithmetic,
+                home: comes_home.then(|| strand.player.compare_with_home()),
+            })
+            .collect()
+    }
+
+    fn keep(&mut self) {
+        for strand in &mut self.strands {
+            let player = &mut strand.player;
+            strand.kept = (player.save(), player.position(), player.arrow());
+        }
+    }
+
+    /// Writes the runs as they were after the latest picture.
+    fn checkpoint(&self, movie: &Movie) -> Result<(), MovieError> {
+        use std::io::Write;
+        for (n, strand) in self.strands.iter().enumerate() {
+            let (state, position, arrow) = strand.kept.clone();
+            let snapshot = Snapshot {
+                scene: self.scene,
+                position,
+                arrow,
+                state,
+            };
+            replace(&movie.series_path(n), |file| {
+                let mut writer = SeriesWriter::new(file);
+                strand.rows.iter().try_for_each(|row| writer.write(row))
+            })?;
+            replace(&movie.state_path(n), |file| {
+                file.write_all(&snapshot.to_bytes())
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Takes the runs to where an earlier export kept them, and returns the first picture that is still to
+    /// be passed. Without a state that belongs there, the runs begin at home again; pictures that are
+    /// there are not drawn again.
+    fn resume(&mut self, movie: &Movie) -> Result<usize, MovieError> {
+        let mut loaded = Vec::new();
+        for n in 0..self.strands.len() {
+            let Some(state) = self.load(movie, n) else {
+                return Ok(0);
+            };
+            loaded.push(state);
+        }
+        let (first, rows) = &loaded[0];
+        let (step, measured) = (first.state.step, rows.len());
+        let same = loaded
+            .iter()
+            .all(|(snapshot, rows)| snapshot.state.step == step && rows.len() == measured);
+        // There is one row for every picture.
+        let belongs =
+            (1..=movie.found()).contains(&measured) && self.schedule.step(measured - 1) == step;
+        if !same || !belongs {
+            return Ok(0);
+        }
+        for (strand, (snapshot, rows)) in self.strands.iter_mut().zip(loaded) {
+            let restored =
+                strand
+                    .player
+                    .restore(&snapshot.state, snapshot.position, snapshot.arrow);
+            restored.map_err(loschmidt_runner::RunError::from)?;
+            rows.iter().for_each(|row| strand.history.push(row.into()));
+            strand.rows = rows;
+        }
+        self.keep();
+        Ok(measured)
+    }
+
+    fn load(&self, movie: &Movie, n: usize) -> Option<(Snapshot, Vec<Row>)> {
+        let snapshot = Snapshot::read(&movie.state_path(n)).ok()?;
+        let arithmetic = self.strands[n].player.options().arithmetic;
+        let belongs = snapshot.scene == self.scene && snapshot.state.arithmetic == arithmetic;
+        let file = File::open(movie.series_path(n)).ok()?;
+        let rows = series::read(file).ok()?;
+        belongs.then_some((snapshot, rows))
+    }
+}
+
+fn fault_of(player: &Player, fault: loschmidt_core::Fault) -> MovieError {
+    MovieError::Fault {
+        arithmetic: match player.options().arithmetic {
+            ArithmeticKind::Fixed => "fixed",
+            ArithmeticKind::Float => "floating",
+        },
+        time: fault.step as f64 * player.scene().time_step(),
+        fault,
+    }
+}
+
+/// 5,000 for 5000.
+pub(super) fn with_commas(n: usize) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (k, digit) in digits.chars().enumerate() {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}

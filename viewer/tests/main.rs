@@ -1,0 +1,5 @@
+//! What the pictures promise.
+
+mod home;
+mod movie;
+mod pixels;

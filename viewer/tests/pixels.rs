@@ -1,0 +1,143 @@
+//! The pixels are a function of the frame and the look alone.
+
+use crate::home::after;
+use loschmidt_runner::Frame;
+use loschmidt_viewer::{
+    Colormap, Colouring, History, Home, Look, Pane, Picture, Raster, Rgb, Theme, draw, field, png,
+};
+use std::fs::File;
+use std::io::BufReader;
+use std::path::PathBuf;
+
+fn golden(name: &str) -> PathBuf {
+    let directory = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    directory.join(format!("{name}.png"))
+}
+
+/// Compares with the committed picture; with `LOSCHMIDT_BLESS` set, writes it.
+fn assert_golden(name: &str, raster: &Raster) {
+    let path = golden(name);
+    if std::env::var_os("LOSCHMIDT_BLESS").is_some() {
+        std::fs::create_dir_all(path.parent().expect("a parent")).expect("a directory");
+        png::write(raster, File::create(&path).expect("a file")).expect("written");
+    }
+    let file = File::open(&path).expect("the committed picture");
+    let expected = png::read(BufReader::new(file), Rgb(0)).expect("a PNG");
+    if *raster != expected {
+        let found = std::env::temp_dir().join(format!("{name}.png"));
+        png::write(raster, File::create(&found).expect("a file")).expect("written");
+        panic!(
+            "{name}: {} differs from {}",
+            found.display(),
+            path.display()
+        );
+    }
+}
+
+/// Draws with so many threads.
+fn with_threads<T: Send>(threads: usize, task: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("threads").install(task)
+}
+
+/// The same picture with 1, 2 and 8 threads, and the committed one.
+fn assert_same(name: &str, picture: impl Fn() -> Raster + Sync) {
+    let one = with_threads(1, &picture);
+    for threads in [2, 8] {
+        assert!(with_threads(threads, &picture) == one, "{threads} threads");
+    }
+    assert_golden(name, &one);
+}
+
+fn dam() -> (Frame, Home, History) {
+    after("dam-break", &["particle_spacing=0.05"], 1500)
+}
+
+#[test]
+fn the_pixels_of_a_plane_scene_are_the_committed_ones_for_any_number_of_threads() {
+    let (frame, home, history) = dam();
+    let look = Look::default();
+    assert_same("dam-break", || {
+        draw(&[Pane::new(&frame, &history)], &home, &look, 320, 240)
+    });
+}
+
+#[test]
+fn the_pixels_of_two_panes_are_the_committed_ones_for_any_number_of_threads() {
+    let (frame, home, history) = dam();
+    let look = Look {
+        colouring: Colouring::Displacement,
+        caption: "a caption".to_owned(),
+        theme: Theme::LIGHT,
+        turn: Some(0.3),
+        ..Look::default()
+    };
+    let one = Pane {
+        label: "one",
+        ..Pane::new(&frame, &history)
+    };
+    let other = Pane {
+        label: "another",
+        colouring: Some(&Colouring::Pressure),
+        ..one
+    };
+    assert_same("two-panes", || draw(&[one, other], &home, &look, 480, 270));
+}
+
+#[test]
+fn the_pixels_of_a_scene_in_space_are_the_committed_ones_for_any_number_of_threads() {
+    let (frame, home, history) = after("dam-break-3d", &["particle_spacing=0.1"], 200);
+    let look = Look {
+        colouring: Colouring::InitialHeight,
+        colormap: Some(Colormap::Cividis),
+        ..Look::default()
+    };
+    assert_same("dam-break-3d", || {
+        draw(&[Pane::new(&frame, &history)], &home, &look, 320, 240)
+    });
+}
+
+#[test]
+fn a_terminal_gets_the_particles_of_the_picture() {
+    let (frame, home, history) = dam();
+    let look = Look {
+        panel: false,
+        ..Look::default()
+    };
+    let whole = draw(&[Pane::new(&frame, &history)], &home, &look, 90, 60);
+    assert!(whole == field(&frame, &home, &look, 90, 60));
+}
+
+#[test]
+fn at_home_a_tint_is_the_picture() {
+    // 20 x 40 particles, 1 x 2 m, and a picture of the same proportions.
+    let (frame, home, _) = after("dam-break", &["particle_spacing=0.05"], 0);
+    let mut picture = Raster::new(20, 40, Rgb(0));
+    for (n, pixel) in picture.pixels_mut().iter_mut().enumerate() {
+        *pixel = (n as u32).wrapping_mul(2_654_435_761) & 0xff_ffff;
+    }
+    let tint = Picture::new(picture.clone()).tint(&home);
+    for (x, colour) in frame.position.iter().zip(&tint) {
+        let (column, row) = ((x[0] / 0.05) as usize, ((2.0 - x[1]) / 0.05) as usize);
+        assert_eq!(*colour, picture.at(column, row), "at {x:?}");
+    }
+}
+
+#[test]
+fn more_discs_on_a_pixel_than_its_sums_hold_are_drawn_all_the_same() {
+    // 200,000 particles in one place: sums of 8-bit coverages times 8-bit colours pass 32 bits.
+    let (mut frame, home, _) = after("dam-break", &["particle_spacing=0.1"], 0);
+    let n = 200_000;
+    frame.id = (0..n).collect();
+    frame.position = vec![[0.5, 0.5, 0.0]; n as usize];
+    frame.velocity = vec![[0.0; 3]; n as usize];
+    frame.density = vec![1000.0; n as usize];
+    frame.pressure = vec![0.0; n as usize];
+    let white: Vec<Rgb> = vec![Rgb(0xff_ffff); n as usize];
+    let look = Look {
+        colouring: Colouring::Picture(white.into()),
+        ..Look::default()
+    };
+    let drawn = field(&frame, &home, &look, 100, 100);
+    assert!(drawn.pixels().contains(&0xff_ffff));
+}
