@@ -30,9 +30,11 @@ pub enum FaultKind {
 
 /// Most neighbours in one pass over pairs.
 ///
-/// An integer takes at most two passes in one kick (fluid and walls), two terms of gravity, or the
-/// particle's own term and C_a, and the velocity itself: 2 * 2046 + 3 numbers of at most 2^51
-/// each. That is below 2^63, so no sum can wrap back into the range unseen.
+/// A density takes at most two passes (fluid and walls), the particle's own term and C_a: 2 * 2046 + 2
+/// numbers of at most 2^51 each, which stay below 2^63. A velocity takes at most four in one kick
+/// (pressure and repulsion, each of fluid and walls), two terms of gravity, and itself: 4 * 2046 + 3
+/// numbers. That may wrap once, but it is below 2^64 - 2^51: no sum can come back into the range
+/// unseen.
 pub const MAX_NEIGHBOURS: u32 = 2046;
 
 /// A particle that could not go on.

@@ -39,6 +39,6 @@ pub use diagnostics::{Diagnostics, Energies};
 pub use digest::Digest;
 pub use executor::{Executor, Serial};
 pub use fault::{CapacityError, Fault, FaultKind};
-pub use model::{Forces, Model, Parameters, Reversibility, Standard, Symplectic};
+pub use model::{Filtered, Forces, Model, Parameters, Reversibility, Standard, Symplectic};
 pub use number::{Arithmetic, Fixed, Float, Scale};
 pub use state::{Progress, Scratch, State, System, Walls};

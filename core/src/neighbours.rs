@@ -94,7 +94,16 @@ pub struct Cells<'a> {
     pub order: &'a mut [u32],
 }
 
-impl Cells<'_> {
+impl<'a> Cells<'a> {
+    /// A read-only view that keeps the memory for as long as it was lent.
+    #[must_use]
+    pub fn into_view(self) -> CellsView<'a> {
+        CellsView {
+            start: self.start,
+            order: self.order,
+        }
+    }
+
     /// Sorts the particles at `position`. `start` must have `grid.buckets() + 1` elements and
     /// `order` as many as there are particles.
     pub fn sort<Q: Quantity, const D: usize>(&mut self, grid: &Grid<D>, position: &[[Q; D]]) {

@@ -17,6 +17,8 @@
 //!     density_correction: DensityCorrection::Constant,
 //!     gravity: Gravity { uniform: [0.0, -9.8], central: None },
 //!     wall: Wall::None,
+//!     anti_clump: None,
+//!     filter_every: 0,
 //!     integrator: &STORMER_VERLET,
 //!     scale: Scale::with_headroom(1.0, 20.0, 1000.0),
 //!     extent: [1.0, 1.0],

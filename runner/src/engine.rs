@@ -3,6 +3,7 @@
 use crate::executor::{AnyExecutor, ExecutorKind, Rayon};
 use crate::fast::Fast;
 use crate::frame::Frame;
+use crate::random::SplitMix64;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::InitialState;
 use crate::simulation::{BuildError, Options, Simulation};
@@ -317,18 +318,11 @@ fn kind<A: Arithmetic>() -> ArithmeticKind {
     }
 }
 
-/// Fisher–Yates with SplitMix64 (Steele, Lea & Flood, OOPSLA 2014).
+/// Fisher–Yates.
 fn shuffle(items: &mut [u64], seed: u64) {
-    let mut state = seed;
-    let mut next = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    };
+    let mut random = SplitMix64::new(seed);
     for i in (1..items.len()).rev() {
-        let j = (next() % (i as u64 + 1)) as usize;
+        let j = (random.bits() % (i as u64 + 1)) as usize;
         items.swap(i, j);
     }
 }

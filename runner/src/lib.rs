@@ -5,6 +5,7 @@
 //! ```
 //!
 //! 1. [`scene`]: the scene language, its errors, the catalogue.
+//!    [`isc`] corrects the initial state so that no density constants are needed.
 //! 2. [`setup`]: a scene's parameters for the core, and the memory it takes.
 //! 3. [`simulation`]: a simulation without type parameters; [`Rayon`] and [`fast`], the parallel
 //!    executors.
@@ -19,9 +20,12 @@ pub mod deck;
 mod engine;
 mod executor;
 pub mod fast;
+pub mod filter;
 pub mod frame;
+pub mod isc;
 pub mod output;
 pub mod player;
+mod random;
 pub mod run;
 pub mod saved;
 pub mod scene;

@@ -51,6 +51,9 @@ pub enum PlayerError {
     /// Seeking needs the way back, and floating-point sums do not return.
     #[error("floating-point arithmetic does not return to where it came from")]
     FloatingPoint,
+    /// Seeking needs the way back, and what a filter took out is gone.
+    #[error("the filter takes noise and energy out of the flow: it cannot be integrated backwards")]
+    Dissipative,
 }
 
 /// How far a state is from home.
@@ -222,6 +225,7 @@ impl Player {
             Reversibility::BitExact => Ok(()),
             Reversibility::UpToRounding => Err(PlayerError::FloatingPoint),
             Reversibility::Irreversible => Err(PlayerError::Irreversible),
+            Reversibility::Dissipative => Err(PlayerError::Dissipative),
         }
     }
 

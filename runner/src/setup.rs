@@ -1,11 +1,12 @@
 //! From a scene to a simulation: the parameters of the core, its units, and the memory it takes.
 
+use crate::isc;
 use crate::player::Player;
 use crate::scene::{self, InitialState, Point, Scene};
 use crate::simulation::{BuildError, ModelKind, Options, Simulation, build};
 use crate::storage;
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
-use loschmidt_core::model::{Central, DensityCorrection, Gravity, StateEquation, Wall};
+use loschmidt_core::model::{AntiClump, Central, DensityCorrection, Gravity, StateEquation, Wall};
 use loschmidt_core::{Fault, Parameters, Scale};
 
 /// Sets up the scene's simulation at step 0.
@@ -20,6 +21,7 @@ pub fn simulation(
     let model = match scene.model {
         scene::Model::Symplectic => ModelKind::Symplectic,
         scene::Model::Standard => ModelKind::Standard,
+        scene::Model::Filtered => ModelKind::Filtered,
     };
     match scene.dimension {
         scene::Dimension::Two => build::<2>(parameters(scene, initial), model, initial, options),
@@ -44,7 +46,9 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
         },
         density_correction: match scene.density_correction {
             scene::DensityCorrection::Constant => DensityCorrection::Constant,
-            scene::DensityCorrection::None => DensityCorrection::None,
+            scene::DensityCorrection::Isc | scene::DensityCorrection::None => {
+                DensityCorrection::None
+            }
         },
         gravity: Gravity {
             uniform: first(scene.gravity.uniform),
@@ -55,11 +59,17 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             }),
         },
         wall: wall(scene),
+        anti_clump: (scene.fluid.anti_clump_pressure > 0.0).then_some(AntiClump {
+            pressure: scene.fluid.anti_clump_pressure,
+            support_radius: scene.fluid.anti_clump_radius * scene.particle_spacing,
+        }),
+        filter_every: scene.filter_every,
         integrator: integrator(scene.integrator),
         scale: Scale::with_headroom(
             // A drop that is smaller than its kernel must still leave room for the kernel.
             bounds.farthest.max(scene.support_radius()),
-            scene.fluid.sound_speed,
+            // A flow that begins faster than its sound needs room for its speed.
+            scene.fluid.sound_speed.max(fastest(initial)),
             scene.fluid.reference_density,
         ),
         extent: first(bounds.extent),
@@ -88,6 +98,12 @@ fn wall(scene: &Scene) -> Wall {
         // A conservative wall without parameters is a scene without wall particles.
         (scene::WallModel::Conservative | scene::WallModel::None, _) => Wall::None,
     }
+}
+
+/// The largest speed at the start, m/s.
+fn fastest(initial: &InitialState) -> f64 {
+    let speed = |v: &Point| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    initial.fluid_velocity.iter().map(speed).fold(0.0, f64::max)
 }
 
 fn max_buckets(particles: usize) -> usize {
@@ -140,7 +156,12 @@ pub fn estimated_bytes(scene: &Scene) -> u64 {
     let initial = 48 * fluid + 24 * walls;
     let saved = 3 * 8 * ((2 * dimension + 2) * fluid + (dimension + 1) * walls);
     let frame = 72 * fluid + 24 * walls;
-    system + initial + saved + frame
+    let correction = match scene.density_correction {
+        scene::DensityCorrection::Isc => isc::estimated_bytes(dimension, scene.support, fluid),
+        scene::DensityCorrection::Constant | scene::DensityCorrection::None => 0,
+    };
+    // What the correction takes is given back before the rest is taken.
+    initial + correction.max(system + saved + frame)
 }
 
 /// Bytes of memory that this machine can still give, where it can be told.

@@ -7,7 +7,8 @@ use crate::frame::Frame;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::InitialState;
 use loschmidt_core::{
-    Diagnostics, Digest, Fault, Fixed, Float, Parameters, Reversibility, Standard, Symplectic,
+    Diagnostics, Digest, Fault, Filtered, Fixed, Float, Parameters, Reversibility, Standard,
+    Symplectic,
 };
 use std::num::NonZeroUsize;
 use thiserror::Error;
@@ -67,6 +68,8 @@ pub enum ModelKind {
     Symplectic,
     /// [`Standard`].
     Standard,
+    /// [`Filtered`].
+    Filtered,
 }
 
 /// Why a simulation could not be set up.
@@ -152,6 +155,12 @@ pub fn build<const D: usize>(
             parameters, particles, options,
         )?),
         (M::Standard, A::Float) => Box::new(Engine::<Float, Standard<_, D>, D>::new(
+            parameters, particles, options,
+        )?),
+        (M::Filtered, A::Fixed) => Box::new(Engine::<F, Filtered<_, D>, D>::new(
+            parameters, particles, options,
+        )?),
+        (M::Filtered, A::Float) => Box::new(Engine::<Float, Filtered<_, D>, D>::new(
             parameters, particles, options,
         )?),
     })

@@ -147,3 +147,38 @@ fn without_a_wall_model_no_wall_particle_is_made() {
     assert!(scene.initial_state().expect("a state").wall.is_empty());
     assert_eq!(scene.estimated_particles().1, 0);
 }
+
+#[test]
+fn the_gresho_vortex_has_the_parameters_of_table_3() {
+    let scene = scene("gresho-vortex", &[]);
+    assert_eq!(scene.particle_spacing, 0.01);
+    assert_eq!(scene.support, 3.0);
+    assert_eq!(scene.step, StepRule::Cfl(0.1));
+    assert_eq!(scene.fluid.reference_density, 1.0);
+    assert_eq!(scene.fluid.sound_speed, 20.0);
+    assert_eq!(scene.fluid.anti_clump_pressure, 10.0);
+    assert_eq!(scene.fluid.anti_clump_radius, 0.5);
+    assert_eq!(scene.filter_every, 30);
+    assert_eq!(scene.wall_model, WallModel::Dummy);
+    let state = scene.initial_state().expect("a state");
+    assert_eq!(state.fluid.len(), 10_000);
+    // Two rows on every side, and three nodes in each corner: the fourth is too far from the fluid.
+    assert_eq!(state.wall.len(), 4 * 2 * 100 + 4 * 3);
+}
+
+#[test]
+fn the_kepler_ring_turns_ten_times_in_circles() {
+    let scene = scene("kepler-ring", &[]);
+    let revolution = 2.0 * std::f64::consts::PI;
+    assert!((scene.steps_out() as f64 * scene.time_step() / revolution - 10.0).abs() < 1e-3);
+    let mass = scene.gravity.central.expect("a mass").strength;
+    let state = scene.initial_state().expect("a state");
+    assert!((7_900..8_200).contains(&state.fluid.len()));
+    for (x, v) in state.fluid.iter().zip(&state.fluid_velocity) {
+        let r = x[0].hypot(x[1]);
+        assert!((0.9..1.1).contains(&r));
+        // The centrifugal acceleration is the attraction.
+        let v2 = v[0] * v[0] + v[1] * v[1];
+        assert!((v2 / r - mass / (r * r)).abs() < 1e-12);
+    }
+}

@@ -216,6 +216,140 @@ fn a_box_in_space_is_walled_on_every_side() {
     assert_eq!(state.wall.len(), 2 * (5 * 4 + 4 * 3 + 5 * 3));
 }
 
+/// The smallest distance between two of the points, and the largest from a point to its nearest.
+fn distances(points: &[[f64; 3]]) -> (f64, f64) {
+    let nearest = points.iter().enumerate().map(|(i, a)| {
+        let others = points.iter().enumerate().filter(|(j, _)| *j != i);
+        let square = others.map(|(_, b)| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>());
+        square.fold(f64::INFINITY, f64::min).sqrt()
+    });
+    nearest.fold((f64::INFINITY, 0.0), |(low, high), d| {
+        (low.min(d), high.max(d))
+    })
+}
+
+fn fluid_on(lattice: &str, dimension: u32, spacing: f64, shape: &str) -> InitialState {
+    let region =
+        format!("[[region]]\nkind = \"fluid\"\nlattice = \"{lattice}\"\nshape = {shape}\n");
+    let scene = with_regions(spacing, dimension, &region);
+    scene
+        .initial_state()
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn a_spiral_fills_a_disc_evenly_from_its_middle() {
+    let state = fluid_on(
+        "vogel",
+        2,
+        0.05,
+        "{ circle = { centre = [3, -1], radius = 1 } }",
+    );
+    let area = std::f64::consts::PI / 0.0025;
+    assert!((state.fluid.len() as f64 - area).abs() <= 1.0);
+    // Node n lies at the radius whose disc holds n + 1/2 particles; x^2 + y^2 = r^2 whatever the angle.
+    for (n, x) in state.fluid.iter().enumerate() {
+        let r2 = (x[0] - 3.0).powi(2) + (x[1] + 1.0).powi(2);
+        let expected = 0.0025 * (n as f64 + 0.5) / std::f64::consts::PI;
+        assert!((r2 - expected).abs() < 1e-12, "{n}");
+    }
+    let (nearest, farthest) = distances(&state.fluid);
+    assert!(nearest > 0.75 * 0.05, "{nearest}");
+    assert!(farthest < 1.1 * 0.05, "{farthest}");
+}
+
+#[test]
+fn a_body_centred_lattice_has_eight_neighbours_in_an_edge_of_the_cube_root_of_two() {
+    let edge = 0.1 * 2f64.cbrt();
+    let side = 5.0 * edge;
+    let shape = format!("{{ box = {{ min = [0, 0, 0], max = [{side:?}, {side:?}, {side:?}] }} }}");
+    let state = fluid_on("body-centred", 3, 0.1, &shape);
+    assert_eq!(state.fluid.len(), 2 * 5 * 5 * 5);
+    let (nearest, farthest) = distances(&state.fluid);
+    let expected = 0.75f64.sqrt() * edge;
+    assert!((nearest - expected).abs() < 1e-12);
+    assert!((farthest - expected).abs() < 1e-12);
+    let middle = state
+        .fluid
+        .iter()
+        .find(|x| x.iter().all(|x| (x - 2.25 * edge).abs() < 1e-9));
+    let middle = middle.expect("a node in the middle");
+    let near = |x: &&[f64; 3]| {
+        (0..3).map(|k| (x[k] - middle[k]).powi(2)).sum::<f64>() < 1.1 * expected * expected
+    };
+    assert_eq!(state.fluid.iter().filter(near).count(), 1 + 8);
+}
+
+#[test]
+fn a_layer_wraps_a_spiral_and_a_body_centred_lattice() {
+    let ring = with_regions(
+        0.05,
+        2,
+        "[[region]]\nkind = \"fluid\"\nlattice = \"vogel\"\nshape.rectangle = { min = [-1, -1], max = [1, 1] }\n[[region]]\nkind = \"wall\"\nshape.layer = { around.rectangle = { min = [-1, -1], max = [1, 1] }, depth = 2.5 }\n",
+    )
+    .initial_state()
+    .expect("a state");
+    // The spiral goes on through the wall: together they fill the larger square but for its rim.
+    let outside = |x: &[f64; 3]| x[0].abs().max(x[1].abs());
+    assert!(
+        ring.wall
+            .iter()
+            .all(|x| (0.999..1.16).contains(&outside(x)))
+    );
+    let filled = ring.wall.iter().filter(|x| outside(x) < 1.1).count() as f64;
+    let area = (2.2 * 2.2 - 4.0) / 0.0025;
+    assert!((filled / area - 1.0).abs() < 0.05, "{filled} {area}");
+    let (nearest, _) = distances(&[ring.fluid, ring.wall].concat());
+    assert!(nearest > 0.75 * 0.05);
+
+    let edge = 0.1 * 2f64.cbrt();
+    let side = 4.0 * edge;
+    let shape = format!("{{ min = [0, 0, 0], max = [{side:?}, {side:?}, {side:?}] }}");
+    let boxed = with_regions(
+        0.1,
+        3,
+        &format!("[[region]]\nkind = \"fluid\"\nlattice = \"body-centred\"\nshape.box = {shape}\n[[region]]\nkind = \"wall\"\nshape.layer = {{ around.box = {shape}, depth = 1.5 }}\n"),
+    )
+    .initial_state()
+    .expect("a state");
+    let faces = boxed.wall.iter().filter(|x| {
+        let out = x.iter().filter(|x| **x < 0.0 || **x > side);
+        out.count() == 1
+    });
+    // Reached within 2 spacings of an inner node: a node at depth d is reached across a face where
+    // d plus a quarter of an edge is no farther.
+    assert!(faces.count() >= 6 * 2 * 4 * 4);
+}
+
+#[test]
+fn gresho_and_kepler_have_their_speeds_and_turn_counter_clockwise() {
+    let at = |velocity: &str| {
+        let region = format!(
+            "[[region]]\nkind = \"fluid\"\nlattice = \"vogel\"\nshape.circle = {{ centre = [1, 2], radius = 0.6 }}\nvelocity = {velocity}\n"
+        );
+        with_regions(0.02, 2, &region)
+            .initial_state()
+            .expect("a state")
+    };
+    let check = |state: InitialState, speed: &dyn Fn(f64) -> f64| {
+        for (x, v) in state.fluid.iter().zip(&state.fluid_velocity) {
+            let d = [x[0] - 1.0, x[1] - 2.0];
+            let r = d[0].hypot(d[1]);
+            assert!((v[0].hypot(v[1]) - speed(r)).abs() < 1e-12, "{r}");
+            assert!((v[0] * d[0] + v[1] * d[1]).abs() < 1e-12);
+            assert!(d[0] * v[1] - d[1] * v[0] >= 0.0);
+        }
+    };
+    check(at("{ gresho = 1.0, centre = [1, 2] }"), &|r| match r {
+        r if r < 0.2 => 5.0 * r,
+        r if r < 0.4 => 2.0 - 5.0 * r,
+        _ => 0.0,
+    });
+    check(at("{ kepler = 2.0, centre = [1, 2] }"), &|r| {
+        (2.0 / r).sqrt()
+    });
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 

@@ -132,7 +132,7 @@ fn the_print_names_every_key_with_unit_and_meaning() {
     }
     assert!(printed.contains("# m; side of the square"), "{printed}");
     assert!(
-        printed.contains("# \"symplectic\" or \"standard\"; "),
+        printed.contains("# \"symplectic\", \"standard\" or \"filtered\"; "),
         "{printed}"
     );
     for line in printed.lines().filter(|line| line.contains(" = ")) {
@@ -215,6 +215,18 @@ fn velocity(axes: usize) -> impl Strategy<Value = Option<Velocity>> {
         Just(None),
         point(axes).prop_map(|u| Some(Velocity::Uniform(u))),
         (omega, point(axes)).prop_map(|(omega, centre)| Some(Velocity::Rotation { omega, centre })),
+        (number(), positive(), point(axes)).prop_map(move |(peak, radius, centre)| match axes {
+            2 => Some(Velocity::Gresho {
+                peak,
+                radius,
+                centre,
+            }),
+            _ => None,
+        }),
+        (positive(), point(axes)).prop_map(move |(strength, centre)| match axes {
+            2 => Some(Velocity::Kepler { strength, centre }),
+            _ => None,
+        }),
         ([row(), row(), row()], point(axes)).prop_map(move |(mut matrix, offset)| {
             if axes == 2 {
                 matrix[2] = [0.0; 3];

@@ -65,3 +65,18 @@ pub const ENERGY_FALL_WITH_VERLET: f64 = 9.0;
 
 /// The same for half the time step with dummy walls: 4, less the same.
 pub const ENERGY_FALL_WITH_DUMMIES: f64 = 3.0;
+
+/// Relative density summed in another order: a hundred terms.
+pub const DENSITY_SUM: f64 = 100.0 * f64::EPSILON;
+
+/// Least order at which the last Newton steps of the initial state correction converge, as the
+/// ratio of the logarithms of two errors: 2, less what the factor before the square takes.
+pub const NEWTON_ORDER: f64 = 1.3;
+
+/// Relative density of a corrected state in the simulation: 1e-10 of the correction, and what
+/// positions rounded to 2^-46 and terms rounded to 2^-40 add.
+pub const CORRECTED_DENSITY: f64 = 1e-9;
+
+/// A filtered velocity against the average in doubles, m/s: the quanta (2^-44) of up to a hundred
+/// rounded terms over a γ of at least 0.2, and the push of one step of 1e-15 s.
+pub const SHEPARD_AVERAGE: f64 = 1e-10;

@@ -38,6 +38,8 @@ pub fn water<const D: usize>() -> Parameters<D> {
             central: None,
         },
         wall: Wall::None,
+        anti_clump: None,
+        filter_every: 0,
         integrator: &STORMER_VERLET,
         scale: Scale::with_headroom(4.0, 20.0, 1000.0),
         extent: [2.0; D],

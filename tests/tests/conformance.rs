@@ -106,13 +106,16 @@ fn with_dummy_walls_every_integrator_and_the_standard_scheme() {
             "model=standard",
             "fluid.equation_of_state=linear",
             "density_correction=none",
+            "fluid.anti_clump_pressure=1e4",
         ] {
             let scene = scene(name, &["particle_spacing=0.1", "cfl=0.05", set]);
             check(&scene, &disordered(&scene, 4), &[1, 2, 25]);
         }
-        let set = ["particle_spacing=0.1", "wall_model=dummy", "model=standard"];
-        let scene = scene(name, &set);
-        check(&scene, &disordered(&scene, 5), &[1, 2, 25]);
+        for set in ["model=standard", "fluid.anti_clump_pressure=1e4"] {
+            let set = ["particle_spacing=0.1", "wall_model=dummy", set];
+            let scene = scene(name, &set);
+            check(&scene, &disordered(&scene, 5), &[1, 2, 25]);
+        }
     }
 }
 

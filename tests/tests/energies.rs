@@ -1,7 +1,7 @@
 //! Every force is minus the gradient of its energy.
 
 use loschmidt_core::integrator::{Integrator, Stage};
-use loschmidt_core::model::{DensityCorrection, StateEquation, Wall};
+use loschmidt_core::model::{AntiClump, DensityCorrection, StateEquation, Wall};
 use loschmidt_core::number::power_of_two;
 use loschmidt_core::{Energies, Parameters, Serial};
 use loschmidt_tests::permitted;
@@ -136,6 +136,30 @@ fn central_attraction_is_minus_the_gradient_of_its_energy() {
         ..water::<3>()
     };
     check_all(&sparse(space), |e| e.gravitational);
+}
+
+#[test]
+fn the_repulsion_of_near_particles_is_minus_the_gradient_of_its_energy() {
+    // As far as 1.2 spacings, so that some are near enough in every disorder.
+    let clump = Some(AntiClump {
+        pressure: 1e5,
+        support_radius: 1.2 * SPACING,
+    });
+    for wall in [Wall::None, Wall::Dummy] {
+        let plane = Parameters {
+            anti_clump: clump,
+            wall,
+            ..water::<2>()
+        };
+        let all = |e: Energies| e.internal + e.wall;
+        check_all(&Recipe::boxed(plane, [3, 3], [4, 4], 1), all);
+        let space = Parameters {
+            anti_clump: clump,
+            wall,
+            ..water::<3>()
+        };
+        check_all(&Recipe::boxed(space, [2, 2, 2], [3, 2, 2], 1), all);
+    }
 }
 
 /// Walls half a spacing beside each particle.

@@ -2,6 +2,7 @@
 //! its integrator.
 
 use loschmidt_runner::run::{Angular, EnergyBalance, Row};
+use loschmidt_tests::permitted;
 use loschmidt_tests::permitted::{
     ANGULAR_MOMENTUM_OF_A_RUN, ENERGY_FALL_WITH_DUMMIES, ENERGY_FALL_WITH_VERLET,
 };
@@ -122,4 +123,31 @@ fn with_dummy_walls_the_energy_is_whole_only_if_theirs_is_counted() {
     // Left out, it is missed at any time step.
     assert!(coarse_deficit > 10.0 * coarse);
     assert!(fine_deficit > 0.5 * coarse_deficit);
+}
+
+/// Appendix A of the paper: dummies, the repulsion of near particles, every lattice.
+#[test]
+fn the_gresho_vortex_returns_exactly_from_every_lattice() {
+    for lattice in ["square", "hexagonal", "vogel"] {
+        let lattice = format!("region.0.lattice={lattice}");
+        let set = ["particle_spacing=0.04", "turnaround=0.2", lattice.as_str()];
+        let (outcome, rows) = run(scene("gresho-vortex", &set), threads(2));
+        assert_eq!(outcome.reversed_exactly, Some(true), "{lattice}");
+        assert_same_way_back(&rows);
+    }
+}
+
+/// Footnote 8 of the paper, at a coarser spacing: half a revolution and back.
+#[test]
+fn the_kepler_ring_keeps_its_angular_momentum_and_returns_exactly() {
+    let set = ["particle_spacing=0.025", "turnaround=3.14"];
+    let (outcome, rows) = run(scene("kepler-ring", &set), threads(2));
+    assert_eq!(outcome.reversed_exactly, Some(true));
+    assert_same_way_back(&rows);
+    let home = rows[0].angular_momentum_z;
+    let off = rows.iter().filter(|row| row.leg == 1);
+    let off = off.map(|row| (row.angular_momentum_z / home - 1.0).abs());
+    let off = off.fold(0.0, f64::max);
+    println!("angular momentum off by {off:e}");
+    assert!(off < permitted::ANGULAR_MOMENTUM_OF_A_RUN);
 }

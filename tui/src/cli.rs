@@ -1,9 +1,12 @@
 //! The command line.
 
 use crate::exit::{Failure, USAGE};
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use loschmidt_reproduce::Target;
 use loschmidt_runner::fast::Backend;
+use loschmidt_runner::scene::preset;
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options};
 use loschmidt_viewer::{Colormap, Colouring, Theme};
 use std::num::NonZeroUsize;
@@ -39,6 +42,8 @@ pub enum Command {
     Movie(MovieArguments),
     /// List the catalogue of scenes, or print one of them
     Scenes(ScenesArguments),
+    /// Run the paper's figures and tables again: numbers beside the paper's, verdicts, a report
+    Reproduce(ReproduceArguments),
     /// Tell what a scene takes (particles, steps, memory, time) and whether its time step is small enough
     Check(SceneArguments),
     /// Print the digest of a snapshot
@@ -62,6 +67,93 @@ pub struct SceneArguments {
     /// an empty value removes the key; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// Overrides with a name, taken before those of --set
+    #[arg(long, value_name = "NAME")]
+    pub preset: Option<Preset>,
+}
+
+/// Names of the presets.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Preset {
+    /// At most 1e-4 of the energy released is lost or gained on the dam break: PEFRL at twice the usual
+    /// time step, twice the force evaluations
+    Accurate,
+}
+
+impl SceneArguments {
+    /// The overrides of the preset, if there is one, and those of --set.
+    pub fn overrides(&self) -> Vec<String> {
+        let preset = match self.preset {
+            Some(Preset::Accurate) => &preset::ACCURATE[..],
+            None => &[],
+        };
+        let preset = preset.iter().map(|&set| set.to_owned());
+        preset.chain(self.set.iter().cloned()).collect()
+    }
+}
+
+/// Arguments of `reproduce`.
+#[derive(Args, Debug)]
+pub struct ReproduceArguments {
+    /// What to reproduce: all, or any of fig1 … fig6, table2 (with Fig. 7), kepler, claims, echo, work
+    #[arg(default_value = "all", value_parser = target_names())]
+    pub targets: Vec<String>,
+    /// Coarser spacings: everything within five minutes on two processors
+    #[arg(long)]
+    pub quick: bool,
+    /// Directory of the report; what an earlier call has done there is kept [default: reproduction, or
+    /// reproduction-quick]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Work out again what is there already (runs of the same scene are kept all the same)
+    #[arg(long)]
+    pub force: bool,
+    /// Threads [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub threads: Option<NonZeroUsize>,
+    /// Print no progress
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `all` and the names of the targets.
+fn target_names() -> PossibleValuesParser {
+    let names = Target::ALL
+        .iter()
+        .map(|target| PossibleValue::new(target.name()).help(target.title()));
+    PossibleValuesParser::new(
+        [PossibleValue::new("all").help("all of them")]
+            .into_iter()
+            .chain(names),
+    )
+}
+
+impl ReproduceArguments {
+    /// The targets, each once, in the order of the report.
+    pub fn targets(&self) -> Vec<Target> {
+        let all = self.targets.iter().any(|name| name == "all");
+        let wanted = |target: &&Target| all || self.targets.iter().any(|n| n == target.name());
+        Target::ALL.iter().filter(wanted).copied().collect()
+    }
+
+    /// Where the report goes.
+    pub fn directory(&self) -> PathBuf {
+        let default = if self.quick {
+            "reproduction-quick"
+        } else {
+            "reproduction"
+        };
+        self.out.clone().unwrap_or_else(|| default.into())
+    }
+
+    /// The command that goes on after an interruption.
+    pub fn again(&self, directory: String) -> String {
+        let quick = if self.quick { " --quick" } else { "" };
+        format!(
+            "loschmidt reproduce {}{quick} --out {directory}",
+            self.targets.join(" ")
+        )
+    }
 }
 
 /// How a run is computed and shown; none of it changes a bit of the result.
@@ -408,6 +500,7 @@ impl Default for RunArguments {
             scene: SceneArguments {
                 scene: "dam-break".to_owned(),
                 set: vec!["particle_spacing=0.02".to_owned()],
+                preset: None,
             },
             work: WorkArguments {
                 threads: None,

@@ -1,7 +1,8 @@
 //! Energies, eq. (7), with the zero of the internal energy at the reference density.
 //!
 //! - kinetic       Σ m v²/2
-//! - internal      Σ m ε(ρ), fluid; that of dummy walls counts as wall energy
+//! - internal      Σ m ε(ρ), fluid; that of dummy walls counts as wall energy; and, where particles that
+//!   are very near repel each other, Σ m (p0/ρ0²) Σ m W̃ (with dummies: twice that)
 //! - gravitational -Σ m g·x, zero at the origin, minus Σ m GM/(|x|² + s²)^(1/2)
 //! - wall          Σ m E (s - 1)²/4 (footnote 3: E per mass), or the dummies' m ε(ρ)
 
@@ -55,7 +56,28 @@ impl Energies {
             }
             first.map_or(Ok(p.mass * c2 * sum.value()), Err)
         };
-        let fluid = internal(system.scratch.density, Ids::Listed(system.state.id))?;
+        let mut fluid = internal(system.scratch.density, Ids::Listed(system.state.id))?;
+        if let Some((energy, pass)) = forces.anti_clump_energy_pass() {
+            let mut sum = [ExactSum::default()];
+            let others = forces.fluid(system, nothing());
+            let walls = forces.walls(system, nothing());
+            let dummies = forces.has_dummies(system);
+            for (i, (x, id)) in system
+                .state
+                .position
+                .iter()
+                .zip(&*system.state.id)
+                .enumerate()
+            {
+                let fault = |kind| Fault::new(kind, *id);
+                gather(&pass, x, &[], &others, Some(i), &mut sum).map_err(fault)?;
+                // Once for the particle and once for the dummy, which has no turn of its own.
+                for _ in 0..2 * usize::from(dummies) {
+                    gather(&pass, x, &[], &walls, None, &mut sum).map_err(fault)?;
+                }
+            }
+            fluid += p.mass * energy * sum[0].value();
+        }
         let mut wall = 0.0;
         if forces.has_dummies(system) {
             let ids = Ids::From(system.state.len() as u64);

@@ -2,7 +2,8 @@
 
 use super::parameters::{DensityCorrection, Parameters, SetupError, Wall};
 use super::passes::{
-    ContinuityPass, DensityPass, PressurePass, WallEnergyPass, WallGeometry, WallPass,
+    AntiClumpEnergyPass, AntiClumpPass, ContinuityPass, DensityPass, FilterPass, PressurePass,
+    WallEnergyPass, WallGeometry, WallPass,
 };
 use crate::chain::nothing;
 use crate::executor::{Executor, Ids, Targets};
@@ -138,6 +139,52 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             factor: A::Real::from_f64((duration * self.parameters.mass) * units),
         }
     }
+    /// The filter's sum of velocity differences.
+    #[must_use]
+    pub fn filter_pass(&self) -> FilterPass<A::Real> {
+        let p = &self.parameters;
+        FilterPass {
+            kernel: self.kernel,
+            reach_squared: self.reach_squared,
+            volume: A::Real::from_f64(p.mass / p.reference_density),
+        }
+    }
+    /// W̃ and the square of its reach in length quanta, with p0/ρ0² in J m³/kg² (2D: J m²/kg²), where
+    /// there is such a repulsion.
+    fn anti_clump(&self) -> Option<(f64, WendlandC2<A::Real>, A::Real)> {
+        let p = &self.parameters;
+        let clump = p.anti_clump.filter(|clump| clump.pressure > 0.0)?;
+        let quantum = p.scale.length_quantum();
+        let reach = A::Real::from_f64(clump.support_radius / quantum);
+        let strength = clump.pressure / (p.reference_density * p.reference_density);
+        let kernel = WendlandC2::new(D, clump.support_radius, quantum);
+        Some((strength, kernel, reach * reach))
+    }
+    /// The repulsion of near particles over `duration` seconds, if there is one.
+    #[must_use]
+    pub fn anti_clump_pass(&self, duration: f64) -> Option<AntiClumpPass<A::Real>> {
+        let (strength, kernel, reach_squared) = self.anti_clump()?;
+        let p = &self.parameters;
+        let units = p.scale.length_quantum() / p.scale.speed_quantum();
+        Some(AntiClumpPass {
+            kernel,
+            reach_squared,
+            factor: A::Real::from_f64(-((duration * p.mass) * (2.0 * strength) * units)),
+        })
+    }
+    /// The energy of near particles, if they repel each other, with its unit in J/kg for each of two
+    /// particles.
+    #[must_use]
+    pub fn anti_clump_energy_pass(&self) -> Option<(f64, AntiClumpEnergyPass<A::Real>)> {
+        let (strength, kernel, reach_squared) = self.anti_clump()?;
+        let most = kernel.value(A::Real::from_f64(0.0)).to_f64();
+        let pass = AntiClumpEnergyPass {
+            kernel,
+            reach_squared,
+            factor: A::Real::from_f64(1.0 / most),
+        };
+        Some((strength * self.parameters.mass * most, pass))
+    }
     fn wall_geometry(&self) -> Option<(f64, WallGeometry<A::Real>)> {
         let Wall::Conservative {
             energy,
@@ -182,14 +229,15 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
 
     /// Sorts the fluid into its cells, and the walls the first time.
     pub(super) fn sort<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) {
-        let dummies = self.has_dummies(system);
+        // Dummies look for the fluid in its cells, and so does the energy of near particles.
+        let for_others = self.has_dummies(system) || self.parameters.anti_clump.is_some();
         let System {
             state,
             walls,
             scratch,
             progress,
         } = system;
-        exec.locate::<A, D>(&self.grid, state, &mut scratch.cells, dummies);
+        exec.locate::<A, D>(&self.grid, state, &mut scratch.cells, for_others);
         // The storage order may be another one now.
         progress.impulse_for = None;
         if !progress.walls_sorted {
@@ -199,7 +247,7 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
     }
 
     /// The fluid as sources; the caller has sorted it.
-    pub(super) fn fluid<'s, T, const READ: usize>(
+    pub(crate) fn fluid<'s, T, const READ: usize>(
         &'s self,
         system: &'s System<'_, A, D>,
         read: &'s [[T; READ]],

@@ -1,6 +1,6 @@
 //! Kicks and drifts: how forces and velocities enter the state.
 //!
-//! - kick(c):  v ← v + J, J = R(c dt g) + Σ R(pressure term) + Σ R(wall term)
+//! - kick(c):  v ← v + J, J = R(c dt g) + Σ R(pressure term) + Σ R(repulsion) + Σ R(wall term)
 //! - drift(c): x ← x + R(c dt v)
 //!
 //! dt is the time step, c the entry of the integrator table.
@@ -170,17 +170,43 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             let walls = self.walls(system, system.scratch.wall_pressure.as_chunks().0);
             exec.sum(&pass, &to, &walls, impulse)?;
         }
-        self.add_wall_impulses(system, exec, duration, impulse)
+        self.add_short_impulses(system, exec, duration, impulse)
     }
 
-    /// Adds the impulses of the conservative wall, if there is one.
-    fn add_wall_impulses<E: Executor>(
+    /// Adds the impulses of very near particles, if they repel each other.
+    fn add_anti_clump_impulses<E: Executor>(
         &self,
         system: &System<'_, A, D>,
         exec: &E,
         duration: f64,
         impulse: &mut [[A::Speed; D]],
     ) -> Result<(), Fault> {
+        let Some(pass) = self.anti_clump_pass(duration) else {
+            return Ok(());
+        };
+        let mut to = Targets {
+            position: &*system.state.position,
+            read: nothing(),
+            id: Ids::Listed(system.state.id),
+            same_set: true,
+        };
+        exec.sum(&pass, &to, &self.fluid(system, nothing()), impulse)?;
+        if self.has_dummies(system) {
+            to.same_set = false;
+            exec.sum(&pass, &to, &self.walls(system, nothing()), impulse)?;
+        }
+        Ok(())
+    }
+
+    /// Adds the impulses of the conservative wall, if there is one, and of very near particles.
+    fn add_short_impulses<E: Executor>(
+        &self,
+        system: &System<'_, A, D>,
+        exec: &E,
+        duration: f64,
+        impulse: &mut [[A::Speed; D]],
+    ) -> Result<(), Fault> {
+        self.add_anti_clump_impulses(system, exec, duration, impulse)?;
         let Some(pass) = self.wall_pass(duration) else {
             return Ok(());
         };
@@ -236,7 +262,7 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         };
         let result = exec
             .chain(&chain, &set, sums)
-            .and_then(|()| self.add_wall_impulses(system, exec, duration, impulse));
+            .and_then(|()| self.add_short_impulses(system, exec, duration, impulse));
         let scratch = &mut system.scratch;
         scratch.density = density;
         scratch.pressure = pressure;

@@ -2,9 +2,11 @@
 //!
 //! [`Forces`] holds what the schemes of weakly compressible SPH share: kernel, state equation,
 //! gravity, walls. [`Symplectic`] is the reversible scheme of Kincl & Pavelka, Comput. Phys.
-//! Commun. 284 (2023) 108593; [`Standard`] is the usual one that it is compared with. Each writes
-//! its own short step.
+//! Commun. 284 (2023) 108593; [`Standard`] is the usual one that it is compared with; [`Filtered`] is
+//! the first with its noise filtered out, which no reversal brings back. Each writes its own short
+//! step.
 
+mod filtered;
 mod forces;
 mod kick_drift;
 mod parameters;
@@ -13,9 +15,15 @@ mod standard;
 mod state_equation;
 mod symplectic;
 
+pub use filtered::Filtered;
 pub use forces::Forces;
-pub use parameters::{Central, DensityCorrection, Gravity, Parameters, SetupError, Wall};
-pub use passes::{ContinuityPass, DensityPass, PressurePass, WallEnergyPass, WallPass};
+pub use parameters::{
+    AntiClump, Central, DensityCorrection, Gravity, Parameters, SetupError, Wall,
+};
+pub use passes::{
+    AntiClumpEnergyPass, AntiClumpPass, ContinuityPass, DensityPass, FilterPass, PressurePass,
+    WallEnergyPass, WallPass,
+};
 pub use standard::Standard;
 pub use state_equation::StateEquation;
 pub use symplectic::Symplectic;
@@ -34,6 +42,8 @@ pub enum Reversibility {
     UpToRounding,
     /// The scheme itself is not symmetric in time.
     Irreversible,
+    /// The scheme takes energy and information out of the flow: there is no way back at all.
+    Dissipative,
 }
 
 /// A scheme: how a system is set up and advanced by one step.

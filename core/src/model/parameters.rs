@@ -44,12 +44,24 @@ pub enum Wall {
     Dummy,
 }
 
+/// A short-range repulsion that keeps particles from sticking together: per mass, acceleration
+/// -(2 p0/ρ0²) Σ m W̃'(r) e and energy (p0/ρ0²) Σ m W̃(r), with W̃ the kernel of a support radius of
+/// its own. The paper has p0/ρ_a² + p0/ρ_b²; with the reference density the force has a potential,
+/// and the difference is of the order of the square of the Mach number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AntiClump {
+    /// p0, Pa.
+    pub pressure: f64,
+    /// Support radius of W̃, m.
+    pub support_radius: f64,
+}
+
 /// What makes up for the missing neighbours at a free surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DensityCorrection {
     /// C_a = ρ0 - Σ m W at step 0, eq. (5).
     Constant,
-    /// C_a = 0, eq. (4).
+    /// C_a = 0, eq. (4): also where the initial state was corrected instead.
     None,
 }
 
@@ -74,6 +86,11 @@ pub struct Parameters<const D: usize> {
     pub gravity: Gravity<D>,
     /// Walls.
     pub wall: Wall,
+    /// The repulsion of particles that are very near to each other.
+    pub anti_clump: Option<AntiClump>,
+    /// M: steps between two filterings of [`Filtered`](super::Filtered), 0 for none; other models do
+    /// not look at it.
+    pub filter_every: u64,
     /// Row of the integrator table.
     pub integrator: &'static Integrator,
     /// Units of the state.
@@ -128,6 +145,16 @@ impl<const D: usize> Parameters<D> {
             positive("wall.energy", energy)?;
             positive("wall.radius", radius)?;
             not_negative("wall.softening", softening)?;
+        }
+        if let Some(clump) = &self.anti_clump {
+            not_negative("anti_clump.pressure", clump.pressure)?;
+            positive("anti_clump.support_radius", clump.support_radius)?;
+            // The neighbours are found within the fluid's own reach.
+            accept(
+                "anti_clump.support_radius",
+                clump.support_radius,
+                clump.support_radius <= self.support_radius,
+            )?;
         }
         for g in self.gravity.uniform {
             any("gravity.uniform", g)?;

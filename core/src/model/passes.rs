@@ -5,6 +5,9 @@
 //! | [`DensityPass`] | Σ m W(r) | (5) | symmetric |
 //! | [`PressurePass`] | -κ Σ m (p_i/ρ_i² + p_j/ρ_j²) (W'/r) x_ij | (1b) | antisymmetric |
 //! | [`ContinuityPass`] | κ Σ m (W'/r) u_ij · x_ij | (1a) | symmetric |
+//! | [`AntiClumpPass`] | -κ Σ m (2 p0/ρ0²) (W̃'/r) x_ij | appendix A | antisymmetric |
+//! | [`AntiClumpEnergyPass`] | Σ W̃(r)/W̃(0) | appendix A | diagnostics only |
+//! | [`FilterPass`] | Σ (m/ρ0) W (u_j - u_i) | appendix A | antisymmetric |
 //! | [`WallPass`] | κ Σ E (s² - s)/(r² + ε²) x_ij | section 3.3 | walls stand still |
 //! | [`WallEnergyPass`] | Σ (s - 1)²/4, in units of E | (7) | diagnostics only |
 //!
@@ -125,6 +128,110 @@ impl<A: Arithmetic, const D: usize> PairPass<A, D, D, 1> for ContinuityPass<A::R
             dot = dot + (i[d] - j[d]) * x_ij[d];
         }
         [(dot * self.kernel.derivative_over_r_at(q)) * q.splat(self.factor)]
+    }
+}
+
+/// The impulse between particles that are very near to each other.
+#[derive(Clone, Copy, Debug)]
+pub struct AntiClumpPass<R> {
+    /// W̃.
+    pub(super) kernel: WendlandC2<R>,
+    pub(super) reach_squared: R,
+    /// -κ m 2 p0/ρ0² in units that make the result speed quanta.
+    pub(super) factor: R,
+}
+
+impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, D> for AntiClumpPass<A::Real> {
+    type Word = A::Real;
+    type Sum = A::Speed;
+    const PARITY: Parity = Parity::Antisymmetric;
+    #[inline(always)]
+    fn reach_squared(&self) -> A::Real {
+        self.reach_squared
+    }
+    fn bound(&self, _: &[A::Real; 0]) -> f64 {
+        let zero = A::Real::from_f64(0.0);
+        let slope = (self.kernel.derivative_over_r(zero) * self.reach_squared.sqrt()).to_f64();
+        1.001 * slope.abs() * self.factor.to_f64().abs()
+    }
+    #[inline(always)]
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, x_ij: &[L; D], q: L, _: &[L; 0], _: &[L; 0]) -> [L; D] {
+        scaled(
+            x_ij,
+            q.splat(self.factor) * self.kernel.derivative_over_r_at(q),
+        )
+    }
+}
+
+/// The energy of that, in units of its largest value.
+#[derive(Clone, Copy, Debug)]
+pub struct AntiClumpEnergyPass<R> {
+    /// W̃.
+    pub(super) kernel: WendlandC2<R>,
+    pub(super) reach_squared: R,
+    /// 1/W̃(0).
+    pub(super) factor: R,
+}
+
+impl<A: Arithmetic, const D: usize> PairPass<A, D, 0, 1> for AntiClumpEnergyPass<A::Real> {
+    type Word = A::Real;
+    type Sum = ExactSum;
+    const PARITY: Parity = Parity::Symmetric;
+    #[inline(always)]
+    fn reach_squared(&self) -> A::Real {
+        self.reach_squared
+    }
+    fn bound(&self, _: &[A::Real; 0]) -> f64 {
+        f64::INFINITY
+    }
+    #[inline(always)]
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], q: L, _: &[L; 0], _: &[L; 0]) -> [L; 1] {
+        [self.kernel.value_at(q) * q.splat(self.factor)]
+    }
+}
+
+/// The weighted differences of the velocities, for the Shepard average; the words are the velocity.
+#[derive(Clone, Copy, Debug)]
+pub struct FilterPass<R> {
+    pub(super) kernel: WendlandC2<R>,
+    pub(super) reach_squared: R,
+    /// m/ρ0, m³ (2D: m²).
+    pub(super) volume: R,
+}
+
+impl<A: Arithmetic, const D: usize> PairPass<A, D, D, D> for FilterPass<A::Real> {
+    type Word = A::Speed;
+    type Sum = A::Speed;
+    const PARITY: Parity = Parity::Antisymmetric;
+    #[inline(always)]
+    fn reach_squared(&self) -> A::Real {
+        self.reach_squared
+    }
+    fn bound(&self, largest: &[A::Real; D]) -> f64 {
+        let zero = A::Real::from_f64(0.0);
+        let weight = (self.kernel.value(zero) * self.volume).to_f64().abs();
+        let speed = largest.iter().fold(0.0, |sum, v| sum + 2.0 * v.to_f64());
+        1.001 * speed * weight
+    }
+    #[inline(always)]
+    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L {
+        self.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes<A::Real>>(&self, _: &[L; D], q: L, i: &[L; D], j: &[L; D]) -> [L; D] {
+        let mut difference = *j;
+        for d in 0..D {
+            difference[d] = j[d] - i[d];
+        }
+        scaled(&difference, self.kernel.value_at(q) * q.splat(self.volume))
     }
 }
 

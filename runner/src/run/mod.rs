@@ -15,12 +15,13 @@ pub use outcome::{
 pub use plan::{Due, Plan};
 pub use row::Row;
 
+use crate::executor::Rayon;
 use crate::output::{Manifest, OutputError, RunDirectory, Snapshot, Status};
 use crate::player::{Arrow, Player};
 use crate::saved::ArithmeticKind;
 use crate::scene::{Scene, Source};
 use crate::setup;
-use crate::simulation::Options;
+use crate::simulation::{BuildError, Options};
 use loschmidt_core::Fault;
 use loschmidt_core::digest::hash;
 use std::path::{Path, PathBuf};
@@ -443,7 +444,9 @@ impl Run {
 /// Home, after the memory for it was found to be there.
 fn new_player(scene: Scene, options: Options) -> Result<Player, RunError> {
     setup::check_memory(&scene)?;
-    let initial = scene.initial_state()?;
+    // The initial state correction works on the threads that the run may have.
+    let threads = Rayon::new(options.threads).map_err(BuildError::from)?;
+    let initial = threads.install(|| scene.initial_state())?;
     Ok(Player::new(scene, initial, options)?)
 }
 

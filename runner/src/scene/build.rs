@@ -207,6 +207,7 @@ impl<'a> Builder<'a> {
             end: self.optional_number(top, "end"),
             // The stand-ins for refused words are as good as any.
             model: self.word(top, "model").unwrap_or(super::Model::Standard),
+            filter_every: self.number(top, "filter_every") as u64,
             integrator: self
                 .word(top, "integrator")
                 .unwrap_or(super::Integrator::StormerVerlet),
@@ -220,6 +221,9 @@ impl<'a> Builder<'a> {
                 equation_of_state: fluid
                     .and_then(|f| self.word(f, "equation_of_state"))
                     .unwrap_or(super::EquationOfState::Linear),
+                anti_clump_pressure: fluid
+                    .map_or(f64::NAN, |f| self.number(f, "anti_clump_pressure")),
+                anti_clump_radius: fluid.map_or(f64::NAN, |f| self.number(f, "anti_clump_radius")),
             },
             gravity: self.gravity(top),
             wall: self.wall(top, wall_model, &regions),
@@ -228,6 +232,7 @@ impl<'a> Builder<'a> {
         };
         self.times(top, &scene);
         self.composition(top, &scene);
+        self.filter(top, &scene);
         scene
     }
 
@@ -249,6 +254,20 @@ impl<'a> Builder<'a> {
                     "the standard scheme has a kick, a drift and a kick of its own: write `integrator = \"{}\"`, or `model = \"symplectic\"`",
                     verlet.word()
                 ),
+            );
+        }
+    }
+
+    /// A filter cannot be undone: a scene that has one has no way back.
+    fn filter(&mut self, top: Here<'a>, scene: &Scene) {
+        if scene.model == super::Model::Filtered
+            && let Some(entry) = top.table.get("turnaround")
+        {
+            self.conflict(
+                "`turnaround` does not go with `model = \"filtered\"`".to_owned(),
+                entry.key,
+                "the filter takes noise and energy out of the flow, and nothing brings them back: write `end`, or `model = \"symplectic\"`"
+                    .to_owned(),
             );
         }
     }

@@ -48,4 +48,16 @@ const ENTRIES: &[CatalogueEntry] = &[
         citation: "after Colagrossi, PhD thesis, Università di Roma La Sapienza (2005)",
         text: include_str!("../../scenes/rotating-drop.toml"),
     },
+    CatalogueEntry {
+        name: "gresho-vortex",
+        title: "a vortex that should stand still, in a box of dummy particles",
+        citation: "Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, Table 3",
+        text: include_str!("../../scenes/gresho-vortex.toml"),
+    },
+    CatalogueEntry {
+        name: "kepler-ring",
+        title: "a ring of fluid around a mass turns ten times, and back",
+        citation: "after footnote 8 of Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593",
+        text: include_str!("../../scenes/kepler-ring.toml"),
+    },
 ];

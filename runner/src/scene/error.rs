@@ -6,6 +6,7 @@ use std::io;
 
 use super::catalogue::catalogue;
 use super::schema::listed;
+use crate::isc::NotConverged;
 
 /// Why there is no scene, or no initial state of a scene.
 ///
@@ -66,6 +67,17 @@ pub enum SceneError {
         scene: String,
         /// Particle spacing, m.
         particle_spacing: f64,
+    },
+    /// The initial state correction found no positions of equal density.
+    #[error(
+        "error: scene `{scene}`: {reason}\nhelp: set `density_correction` to \"constant\", or change the lattice or the shape of the fluid"
+    )]
+    NotCorrected {
+        /// Name of the scene.
+        scene: String,
+        /// How far it came.
+        #[source]
+        reason: NotConverged,
     },
     /// Two particles start on one point, or much nearer than a spacing.
     #[error("error: two particles of scene `{scene}` lie on or almost on one point, ({})\n  region {}: {}\n  region {}: {}\nhelp: regions may touch but not overlap: subtract one shape from the other with `difference`", coordinates(.point), .first.0, .first.1, .second.0, .second.1)]

@@ -1,14 +1,19 @@
 //! From a scene to its particles: lattice nodes inside the regions, with first velocities.
 //!
 //! Every fluid region has its own lattice, which starts half a pitch inside the lower
-//! corner of the region's bounds. Walls continue the lattice of the first fluid region.
+//! corner of the region's bounds (a spiral: in their middle). Walls continue the lattice of the first fluid region.
 //! Particles are ordered region after region in file order, and in a region x fastest,
-//! then y, then z; that order gives the particles their ids.
+//! then y, then z; that order gives the particles their ids. Where the scene asks for it, the
+//! fluid is then moved by the initial state correction (see [`isc`](crate::isc)), and has its first
+//! velocities where it was moved to.
 
 use super::error::SceneError;
 use super::lattice::Lattice;
 use super::shape::{Bounds, Point, Shape, overlap};
-use super::types::{Dimension, LatticeKind, Region, RegionKind, Scene, WallModel};
+use super::types::{
+    DensityCorrection, Dimension, LatticeKind, Region, RegionKind, Scene, WallModel,
+};
+use crate::isc;
 
 /// The particles at time zero; z is 0 in two dimensions.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -72,7 +77,8 @@ impl Scene {
     ///
     /// [`SceneError::NoFluid`], [`SceneError::TooManyParticles`],
     /// [`SceneError::TooFar`], [`SceneError::TooSparse`], and [`SceneError::Coincident`] when particles of two
-    /// regions lie on one point or nearly so.
+    /// regions lie on one point or nearly so; [`SceneError::NotCorrected`] when the initial state
+    /// correction does not converge.
     pub fn initial_state(&self) -> Result<InitialState, SceneError> {
         let no_fluid = || SceneError::NoFluid {
             scene: self.name.clone(),
@@ -98,23 +104,75 @@ impl Scene {
             };
             let before = points.len();
             lattice.visit(&region.shape, |point| points.push(point));
-            if region.kind == RegionKind::Fluid {
-                let velocity = |&point: &Point| {
-                    region
-                        .velocity
-                        .map_or([0.0; 3], |velocity| velocity.at(point))
-                };
-                state
-                    .fluid_velocity
-                    .extend(state.fluid[before..].iter().map(velocity));
-            }
             placed.push((number, region.kind, before));
         }
         if state.fluid.is_empty() {
             return Err(no_fluid());
         }
         self.refuse_overlap(&state, &placed)?;
+        if self.density_correction == DensityCorrection::Isc {
+            self.correct(&mut state)?;
+        }
+        self.set_velocities(&mut state, &placed);
         Ok(state)
+    }
+
+    /// Gives the fluid its first velocities, where it is.
+    fn set_velocities(&self, state: &mut InitialState, placed: &[(usize, RegionKind, usize)]) {
+        state.fluid_velocity = vec![[0.0; 3]; state.fluid.len()];
+        for &(number, kind, start) in placed {
+            if kind != RegionKind::Fluid {
+                continue;
+            }
+            let field = self.regions[number].velocity;
+            let places = state.fluid[start..].iter();
+            // What belongs to later regions is overwritten by them.
+            for (v, x) in state.fluid_velocity[start..].iter_mut().zip(places) {
+                *v = field.map_or([0.0; 3], |field| field.at(*x));
+            }
+        }
+    }
+
+    /// The settings of the initial state correction of this scene.
+    #[must_use]
+    pub fn correction(&self) -> isc::Settings {
+        isc::Settings::new(
+            self.particle_spacing,
+            self.support_radius(),
+            self.particle_mass(),
+            self.fluid.reference_density,
+        )
+    }
+
+    /// Moves the particles until their summed densities are the reference density: the fluid, and
+    /// dummy walls with it, which belong to the density and whose outer face is a free surface too.
+    fn correct(&self, state: &mut InitialState) -> Result<isc::Report, SceneError> {
+        match self.dimension {
+            Dimension::Two => self.correct_in::<2>(state),
+            Dimension::Three => self.correct_in::<3>(state),
+        }
+    }
+
+    fn correct_in<const D: usize>(
+        &self,
+        state: &mut InitialState,
+    ) -> Result<isc::Report, SceneError> {
+        let first = |x: &Point| -> [f64; D] { std::array::from_fn(|d| x[d]) };
+        let mut moved: Vec<[f64; D]> = state.fluid.iter().map(first).collect();
+        // Other walls take no part in the density.
+        if self.wall_model == WallModel::Dummy {
+            moved.extend(state.wall.iter().map(first));
+        }
+        let report = isc::correct(&mut moved, &self.correction(), |_, _| {});
+        let report = report.map_err(|reason| SceneError::NotCorrected {
+            scene: self.name.clone(),
+            reason,
+        })?;
+        let all = state.fluid.iter_mut().chain(&mut state.wall);
+        for (x, moved) in all.zip(&moved) {
+            x[..D].copy_from_slice(moved);
+        }
+        Ok(report)
     }
 
     /// The regions that hold particles, with their numbers in file order.
@@ -135,12 +193,16 @@ impl Scene {
     }
 
     fn own_lattice(&self, region: &Region) -> Option<Lattice> {
+        let kind = region
+            .lattice
+            .filter(|kind| kind.fits(self.dimension))
+            .unwrap_or(LatticeKind::natural(self.dimension));
         Some(Lattice {
-            kind: region
-                .lattice
-                .filter(|kind| kind.fits(self.dimension))
-                .unwrap_or(LatticeKind::natural(self.dimension)),
-            origin: region.shape.corner()?,
+            kind,
+            origin: match kind {
+                LatticeKind::Vogel => region.shape.middle()?,
+                _ => region.shape.corner()?,
+            },
             spacing: self.particle_spacing,
         })
     }

@@ -2,10 +2,15 @@
 //!
 //! A node's coordinate is origin + (i + 1/2) * pitch, computed from its integer index and
 //! not from its neighbour's coordinate: nothing accumulates, and a region and the wall
-//! around it agree on every bit. Only `+` and `*` are used.
+//! around it agree on every bit. Only `+` and `*` are used, and for the spiral square root, sine and
+//! cosine of `libm`.
+//!
+//! Vogel's spiral: node n at r = s ((n + 1/2)/π)^(1/2) and the n-th multiple of the golden angle
+//! 2π (1 - 1/φ), so that n nodes fill the area n s². (H. Vogel, Math. Biosci. 44 (1979) 179.)
 
 use super::shape::{Bounds, Point, Shape};
 use super::words::{Dimension, LatticeKind};
+use std::f64::consts::PI;
 
 /// Position of a node along x, y and z.
 pub(super) type Index = [i64; 3];
@@ -17,11 +22,18 @@ const HEXAGONAL_PITCH: f64 = 1.074_569_931_823_542;
 /// Distance of the rows of a hexagonal lattice, in spacings: sqrt(sqrt(3) / 2).
 const HEXAGONAL_ROW: f64 = 0.930_604_859_102_099_6;
 
+/// Edge of the cubes of a body-centred lattice, in spacings: the cube root of 2, since there are two
+/// particles in each.
+const BODY_CENTRED_EDGE: f64 = 1.259_921_049_894_873_2;
+
+/// The golden angle as a part of a turn: 1 - 1/φ = (3 - sqrt(5))/2.
+const GOLDEN_TURN: f64 = 0.381_966_011_250_105_15;
+
 /// A regular lattice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lattice {
     pub kind: LatticeKind,
-    /// The corner half a pitch below node 0 along every axis, m.
+    /// The corner half a pitch below node 0 along every axis, m; of a spiral the middle.
     pub origin: Point,
     /// Particle spacing, m.
     pub spacing: f64,
@@ -30,8 +42,8 @@ pub(super) struct Lattice {
 impl Lattice {
     pub fn dimension(&self) -> Dimension {
         match self.kind {
-            LatticeKind::Square | LatticeKind::Hexagonal => Dimension::Two,
-            LatticeKind::Cubic => Dimension::Three,
+            LatticeKind::Square | LatticeKind::Hexagonal | LatticeKind::Vogel => Dimension::Two,
+            LatticeKind::Cubic | LatticeKind::BodyCentred => Dimension::Three,
         }
     }
 
@@ -39,21 +51,33 @@ impl Lattice {
     fn pitch(&self) -> Point {
         let s = self.spacing;
         match self.kind {
-            LatticeKind::Square | LatticeKind::Cubic => [s, s, s],
+            LatticeKind::Square | LatticeKind::Cubic | LatticeKind::Vogel => [s, s, s],
+            LatticeKind::BodyCentred => {
+                let edge = BODY_CENTRED_EDGE * s;
+                [edge, edge, 0.5 * edge]
+            }
             LatticeKind::Hexagonal => [HEXAGONAL_PITCH * s, HEXAGONAL_ROW * s, s],
         }
     }
 
     /// The point of a node, m.
     pub fn node(&self, index: Index) -> Point {
+        if self.kind == LatticeKind::Vogel {
+            return self.spiral(index[0]);
+        }
         let pitch = self.pitch();
+        let odd = self.parity(index) == 1;
+        // The shift along x and along y.
         let shift = match self.kind {
-            LatticeKind::Hexagonal if index[1].rem_euclid(2) == 1 => 0.5,
-            _ => 0.0,
+            LatticeKind::Hexagonal if odd => [0.5, 0.0],
+            // A quarter from the faces on both sides.
+            LatticeKind::BodyCentred if odd => [0.25, 0.25],
+            LatticeKind::BodyCentred => [-0.25, -0.25],
+            _ => [0.0, 0.0],
         };
         // Indices stay far below 2^52: the sums in brackets are exact.
-        let x = self.origin[0] + (index[0] as f64 + 0.5 + shift) * pitch[0];
-        let y = self.origin[1] + (index[1] as f64 + 0.5) * pitch[1];
+        let x = self.origin[0] + (index[0] as f64 + 0.5 + shift[0]) * pitch[0];
+        let y = self.origin[1] + (index[1] as f64 + 0.5 + shift[1]) * pitch[1];
         let z = match self.dimension() {
             Dimension::Two => 0.0,
             Dimension::Three => self.origin[2] + (index[2] as f64 + 0.5) * pitch[2],
@@ -61,8 +85,45 @@ impl Lattice {
         [x, y, z]
     }
 
+    /// Node n of the spiral.
+    fn spiral(&self, n: i64) -> Point {
+        let r = self.spacing * libm::sqrt((n as f64 + 0.5) / PI);
+        // Whole turns are taken off while they can be told apart.
+        let turns = n as f64 * GOLDEN_TURN;
+        let angle = 2.0 * PI * (turns - libm::floor(turns));
+        let x = self.origin[0] + r * libm::cos(angle);
+        let y = self.origin[1] + r * libm::sin(angle);
+        [x, y, 0.0]
+    }
+
+    /// The number of nodes of a spiral that reaches every corner of a box.
+    fn spiral_nodes(&self, bounds: Bounds) -> f64 {
+        let mut r2 = 0.0;
+        for k in 0..2 {
+            let far = (bounds.0[k] - self.origin[k])
+                .abs()
+                .max((bounds.1[k] - self.origin[k]).abs());
+            r2 += far * far;
+        }
+        PI * r2 / (self.spacing * self.spacing) + 1.0
+    }
+
+    /// The rows of a hexagonal lattice alternate, as do the layers of a body-centred one; those of
+    /// the others are alike.
+    fn parity(&self, index: Index) -> usize {
+        let row = match self.kind {
+            LatticeKind::Hexagonal => index[1],
+            LatticeKind::BodyCentred => index[2],
+            _ => 0,
+        };
+        row.rem_euclid(2) as usize
+    }
+
     /// The number of nodes in a box, for a decision whether to visit them.
     pub fn nodes_within(&self, bounds: Bounds) -> f64 {
+        if self.kind == LatticeKind::Vogel {
+            return self.spiral_nodes(bounds);
+        }
         let pitch = self.pitch();
         (0..self.dimension().axes())
             .map(|k| (bounds.1[k] - bounds.0[k]) / pitch[k] + 3.0)
@@ -71,6 +132,13 @@ impl Lattice {
 
     /// The lowest and one above the highest index of all nodes in a box and a few around it.
     fn extent(&self, bounds: Bounds) -> (Index, Index) {
+        if self.kind == LatticeKind::Vogel {
+            // The conversion saturates.
+            return (
+                [0; 3],
+                [(self.spiral_nodes(bounds) as i64).saturating_add(1), 1, 1],
+            );
+        }
         let pitch = self.pitch();
         let axes = self.dimension().axes();
         // Far beyond any scene that is accepted, and far below the end of i64.
@@ -98,15 +166,17 @@ impl Lattice {
         let Some(bounds) = shape.bounds(self.spacing) else {
             return;
         };
+        let (low, high) = self.extent(bounds);
+        let reaches = shape.reaches();
         let grid = Grid {
             lattice: *self,
-            stencils: shape
-                .reaches()
-                .into_iter()
-                .map(|reach| Stencil::new(self, reach))
-                .collect(),
+            around: if self.kind == LatticeKind::Vogel {
+                Around::Spiral(Spiral::new(self, high[0], &reaches))
+            } else {
+                let stencils = reaches.into_iter().map(|reach| Stencil::new(self, reach));
+                Around::Lattice(stencils.collect())
+            },
         };
-        let (low, high) = self.extent(bounds);
         for k in low[2]..high[2] {
             for j in low[1]..high[1] {
                 for i in low[0]..high[0] {
@@ -122,17 +192,29 @@ impl Lattice {
 /// A lattice with the neighbourhoods that the layers of a shape ask for.
 pub(super) struct Grid {
     pub lattice: Lattice,
-    stencils: Vec<Stencil>,
+    around: Around,
+}
+
+/// How neighbours are found.
+enum Around {
+    /// By the offsets of their indices.
+    Lattice(Vec<Stencil>),
+    /// By their places.
+    Spiral(Spiral),
 }
 
 impl Grid {
     /// Whether `test` holds for a node within `reach` spacings of `index`.
     pub fn any_neighbour(&self, index: Index, reach: f64, test: impl Fn(Index) -> bool) -> bool {
-        let stencil = self.stencils.iter().find(|stencil| stencil.reach == reach);
+        let stencils = match &self.around {
+            Around::Lattice(stencils) => stencils,
+            Around::Spiral(spiral) => {
+                return spiral.any_neighbour(&self.lattice, index, reach, test);
+            }
+        };
+        let stencil = stencils.iter().find(|stencil| stencil.reach == reach);
         stencil.is_some_and(|stencil| {
-            // The rows of a hexagonal lattice alternate; those of the others are alike.
-            let parity = index[1].rem_euclid(2) as usize;
-            stencil.offsets[parity]
+            stencil.offsets[self.lattice.parity(index)]
                 .iter()
                 .any(|offset| test(std::array::from_fn(|k| index[k] + offset[k])))
         })
@@ -153,19 +235,24 @@ impl Stencil {
             spacing: 1.0,
             ..*lattice
         };
-        // The rows of every lattice are at least 0.9 spacings apart.
-        let steps = (reach / 0.9).ceil() as i64;
+        // The rows of every lattice are at least 0.9 spacings apart, but for the layers of a
+        // body-centred one.
+        let apart = match lattice.kind {
+            LatticeKind::BodyCentred => 0.6,
+            _ => 0.9,
+        };
+        let steps = (reach / apart).ceil() as i64;
         let deep = match lattice.dimension() {
             Dimension::Two => 0,
             Dimension::Three => steps,
         };
         let around = |row: i64| {
-            let from = unit.node([0, row, 0]);
+            let from = unit.node([0, row, row]);
             let mut near = Vec::new();
             for k in -deep..=deep {
                 for j in -steps..=steps {
                     for i in -steps..=steps {
-                        let to = unit.node([i, row + j, k]);
+                        let to = unit.node([i, row + j, row + k]);
                         let d = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
                         let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
                         if squared <= reach * reach {
@@ -181,5 +268,58 @@ impl Stencil {
             reach,
             offsets: [around(0), around(1)],
         }
+    }
+}
+
+/// The nodes of a spiral, sorted into squares.
+struct Spiral {
+    /// Edge of the squares, m.
+    edge: f64,
+    /// Squares and the nodes in them.
+    nodes: Vec<([i64; 2], i64)>,
+}
+
+impl Spiral {
+    /// The first `count` nodes; none where no layer looks for neighbours.
+    fn new(lattice: &Lattice, count: i64, reaches: &[f64]) -> Self {
+        let edge = lattice.spacing * reaches.iter().fold(1.0, |a: f64, b| a.max(*b));
+        let count = if reaches.is_empty() { 0 } else { count };
+        let mut spiral = Self {
+            edge,
+            nodes: Vec::new(),
+        };
+        let squares = (0..count).map(|n| (spiral.square(&lattice.spiral(n)), n));
+        spiral.nodes = squares.collect();
+        spiral.nodes.sort_unstable();
+        spiral
+    }
+
+    fn square(&self, x: &Point) -> [i64; 2] {
+        std::array::from_fn(|k| (x[k] / self.edge).floor() as i64)
+    }
+
+    fn any_neighbour(
+        &self,
+        lattice: &Lattice,
+        index: Index,
+        reach: f64,
+        test: impl Fn(Index) -> bool,
+    ) -> bool {
+        let x = lattice.spiral(index[0]);
+        let home = self.square(&x);
+        let limit = reach * lattice.spacing;
+        let is_near = |n: i64| {
+            let y = lattice.spiral(n);
+            let d = [y[0] - x[0], y[1] - x[1]];
+            d[0] * d[0] + d[1] * d[1] <= limit * limit
+        };
+        (0..9).any(|k| {
+            let square = [home[0] + k % 3 - 1, home[1] + k / 3 - 1];
+            let start = self.nodes.partition_point(|(s, _)| *s < square);
+            self.nodes[start..]
+                .iter()
+                .take_while(|(s, _)| *s == square)
+                .any(|&(_, n)| is_near(n) && test([n, 0, 0]))
+        })
     }
 }

@@ -39,6 +39,7 @@ mod initial;
 mod lattice;
 mod nearest;
 mod overrides;
+pub mod preset;
 mod print;
 mod regions;
 mod schema;

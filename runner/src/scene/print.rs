@@ -50,6 +50,7 @@ impl Scene {
         top(page, "turnaround", optional(self.turnaround.map(number)));
         top(page, "end", end);
         top(page, "model", Set(text(self.model.word())));
+        top(page, "filter_every", Set(self.filter_every.to_string()));
         top(page, "integrator", Set(text(self.integrator.word())));
         top(
             page,
@@ -71,6 +72,13 @@ impl Scene {
             "equation_of_state",
             Set(text(self.fluid.equation_of_state.word())),
         );
+        let clump = [
+            ("anti_clump_pressure", self.fluid.anti_clump_pressure),
+            ("anti_clump_radius", self.fluid.anti_clump_radius),
+        ];
+        for (name, value) in clump {
+            fluid(page, name, Set(number(value)));
+        }
     }
 
     fn print_forces(&self, page: &mut Page) {
@@ -129,7 +137,7 @@ impl Scene {
     }
 
     fn print_velocity(&self, page: &mut Page, velocity: Option<Velocity>) {
-        let mut values = [None, None, None, None, None];
+        let mut values = [const { None }; 8];
         match velocity {
             None => {}
             Some(Velocity::Uniform(uniform)) => values[0] = Some(page.vector(uniform)),
@@ -138,19 +146,38 @@ impl Scene {
                     Dimension::Two => number(omega[2]),
                     Dimension::Three => page.vector(omega),
                 });
-                values[2] = Some(page.vector(centre));
+                values[5] = Some(page.vector(centre));
+            }
+            Some(Velocity::Gresho {
+                peak,
+                radius,
+                centre,
+            }) => {
+                values[2] = Some(number(peak));
+                values[3] = Some(number(radius));
+                values[5] = Some(page.vector(centre));
+            }
+            Some(Velocity::Kepler { strength, centre }) => {
+                values[4] = Some(number(strength));
+                values[5] = Some(page.vector(centre));
             }
             Some(Velocity::Linear { matrix, offset }) => {
                 let rows: Vec<String> = matrix[..page.axes]
                     .iter()
                     .map(|&row| page.vector(row))
                     .collect();
-                values[3] = Some(format!("[{}]", rows.join(", ")));
-                values[4] = Some(page.vector(offset));
+                values[6] = Some(format!("[{}]", rows.join(", ")));
+                values[7] = Some(page.vector(offset));
             }
         }
-        let names = ["uniform", "rotation", "centre", "linear", "offset"];
+        let names = [
+            "uniform", "rotation", "gresho", "radius", "kepler", "centre", "linear", "offset",
+        ];
         for (name, value) in names.into_iter().zip(values) {
+            let only = schema::find(Section::Velocity, name).and_then(|key| key.only);
+            if only.is_some_and(|only| only != self.dimension) {
+                continue;
+            }
             let path = format!("velocity.{name}");
             page.key(Section::Velocity, name, &path, optional(value));
         }

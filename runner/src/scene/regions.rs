@@ -92,8 +92,8 @@ fn lattice<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> LatticeKind {
             lattice.word()
         );
         let allowed = match builder.dimension {
-            Dimension::Two => "allowed in 2 dimensions: \"square\" or \"hexagonal\"",
-            Dimension::Three => "allowed in 3 dimensions: \"cubic\"",
+            Dimension::Two => "allowed in 2 dimensions: \"square\", \"hexagonal\" or \"vogel\"",
+            Dimension::Three => "allowed in 3 dimensions: \"cubic\" or \"body-centred\"",
         };
         builder.conflict(message, entry.node.span, allowed.to_owned());
     }
@@ -142,14 +142,21 @@ fn only_one<'a>(
 }
 
 fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
-    let fields = ["uniform", "rotation", "linear"];
+    let fields = ["uniform", "rotation", "gresho", "kepler", "linear"];
     let entry = only_one(builder, here, "the velocity", |name| fields.contains(&name))?;
-    for (name, owner) in [("centre", "rotation"), ("offset", "linear")] {
+    let companions: [(&str, &[&str]); 3] = [
+        ("centre", &["rotation", "gresho", "kepler"]),
+        ("radius", &["gresho"]),
+        ("offset", &["linear"]),
+    ];
+    for (name, owners) in companions {
         if let Some(stray) = here.table.get(name)
-            && entry.name != owner
+            && !owners.contains(&entry.name.as_str())
         {
+            let owners: Vec<String> = owners.iter().map(|owner| format!("`{owner}`")).collect();
+            let owners = listed(&owners, "or");
             builder.conflict(
-                format!("`{name}` goes with `{owner}`, not with `{}`", entry.name),
+                format!("`{name}` goes with {owners}, not with `{}`", entry.name),
                 stray.key,
                 "remove it".to_owned(),
             );
@@ -162,6 +169,15 @@ fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
                 (Dimension::Two, Some(omega)) => [0.0, 0.0, omega],
                 _ => numbers(&entry.node),
             },
+            centre: builder.vector(here, "centre"),
+        },
+        "gresho" => Velocity::Gresho {
+            peak: builder.number(here, "gresho"),
+            radius: builder.number(here, "radius"),
+            centre: builder.vector(here, "centre"),
+        },
+        "kepler" => Velocity::Kepler {
+            strength: builder.number(here, "kepler"),
             centre: builder.vector(here, "centre"),
         },
         _ => {

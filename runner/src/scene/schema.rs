@@ -255,9 +255,10 @@ pub(super) const KEYS: &[Key] = &[
     key(Top, "time_step", Number, "s").within(Above(0.0)).means("time step, in place of cfl"),
     key(Top, "turnaround", Number, "s").within(Above(0.0)).means("time at which all velocities are reversed; absent: a one-way run"),
     key(Top, "end", Number, "s").within(Above(0.0)).means("time at which the run stops, both legs added; absent: twice the turnaround"),
-    key(Top, "model", Choice(Model::WORDS), "").or_word("symplectic").means("density by summation (reversible) or advanced in time"),
+    key(Top, "model", Choice(Model::WORDS), "").or_word("symplectic").means("density by summation (reversible), advanced in time, or summed with a filter of noise (dissipative)"),
     key(Top, "integrator", Choice(Integrator::WORDS), "").or_word("stormer-verlet").means("composition of drifts and kicks in a step"),
-    key(Top, "density_correction", Choice(DensityCorrection::WORDS), "").or_word("constant").means("a constant per particle makes the first density the reference density"),
+    key(Top, "filter_every", Whole, "steps").within(Between(1.0, 1e9)).or(30.0).means("interval at which the model \"filtered\" averages velocities"),
+    key(Top, "density_correction", Choice(DensityCorrection::WORDS), "").or_word("constant").means("what makes the first density the reference density: a constant per particle, an initial state correction (the particles are moved), or nothing"),
     key(Top, "wall_model", Choice(WallModel::WORDS), "").or_word("conservative").means("repulsive potential, fixed fluid particles, or walls left out"),
     key(Top, "fluid", Table(Fluid), "").required().means("what the material is"),
     key(Top, "gravity", Table(Gravity), "").means("which outside forces act"),
@@ -268,6 +269,9 @@ pub(super) const KEYS: &[Key] = &[
     key(Fluid, "reference_density", Number, "kg/m³").within(Above(0.0)).or(1000.0).means("density at which the pressure is zero"),
     key(Fluid, "sound_speed", Number, "m/s").within(Above(0.0)).required().means("numerical speed of sound, about ten times the fastest flow"),
     key(Fluid, "equation_of_state", Choice(EquationOfState::WORDS), "").or_word("tait").means("pressure as a function of density"),
+
+    key(Fluid, "anti_clump_pressure", Number, "Pa").within(AtLeast(0.0)).or(0.0).means("strength p0 of a repulsion between particles that are very near; 0: none"),
+    key(Fluid, "anti_clump_radius", Number, "particle spacings").within(AboveUpTo(0.0, 1.5)).or(0.5).means("distance at which that repulsion begins"),
 
     key(Gravity, "uniform", Vector, "m/s²").means("the same acceleration everywhere"),
     key(Gravity, "central", Table(Central), "").means("attraction to a point"),
@@ -290,7 +294,10 @@ pub(super) const KEYS: &[Key] = &[
 
     key(Velocity, "uniform", Vector, "m/s").means("the same velocity everywhere"),
     key(Velocity, "rotation", Rotation, "rad/s").means("angular velocity of a rigid rotation, counter-clockwise"),
-    key(Velocity, "centre", Vector, "m").means("a point on the axis of the rotation; absent: the origin"),
+    key(Velocity, "centre", Vector, "m").means("the middle of a rotation or vortex; absent: the origin"),
+    key(Velocity, "gresho", Number, "m/s").only(Two).means("peak speed of Gresho's vortex: u = peak r/radius, falling to zero at twice the radius"),
+    key(Velocity, "radius", Number, "m").within(Above(0.0)).or(0.2).only(Two).means("radius at which Gresho's vortex is fastest"),
+    key(Velocity, "kepler", Number, "m³/s²").within(AtLeast(0.0)).only(Two).means("circular orbits around the centre: u = sqrt(strength/r)"),
     key(Velocity, "linear", Matrix, "1/s").means("matrix A of u = A x + b, row by row"),
     key(Velocity, "offset", Vector, "m/s").means("vector b of u = A x + b; absent: zero"),
 

@@ -178,19 +178,29 @@ impl Shape {
     /// The corner from which a lattice starts: the lower corner of the bounds, where a
     /// layer counts as the shape it wraps, because it continues that shape's lattice.
     pub(super) fn corner(&self) -> Option<Point> {
-        let of_all = |shapes: &[Self], choose: fn(f64, f64) -> f64| {
-            shapes
-                .iter()
-                .filter_map(Self::corner)
-                .reduce(|a, b| std::array::from_fn(|k| choose(a[k], b[k])))
-        };
+        Some(self.outline()?.0)
+    }
+
+    /// The middle around which a spiral turns: that of the same bounds.
+    pub(super) fn middle(&self) -> Option<Point> {
+        let (low, high) = self.outline()?;
+        Some(std::array::from_fn(|k| 0.5 * (low[k] + high[k])))
+    }
+
+    /// Bounds in which a layer counts as the shape it wraps. (Those of an intersection may be empty.)
+    fn outline(&self) -> Option<Bounds> {
         match self {
-            Self::Layer { around, .. } => around.corner(),
-            Self::Union(shapes) => of_all(shapes, f64::min),
-            Self::Intersection(shapes) => of_all(shapes, f64::max),
-            Self::Difference(shapes) => shapes.first()?.corner(),
+            Self::Layer { around, .. } => around.outline(),
+            Self::Union(shapes) => shapes.iter().filter_map(Self::outline).reduce(around_both),
+            Self::Intersection(shapes) => shapes.iter().filter_map(Self::outline).reduce(|a, b| {
+                (
+                    std::array::from_fn(|k| a.0[k].max(b.0[k])),
+                    std::array::from_fn(|k| a.1[k].min(b.1[k])),
+                )
+            }),
+            Self::Difference(shapes) => shapes.first()?.outline(),
             // No layer inside: the spacing does not matter.
-            _ => Some(self.bounds(0.0)?.0),
+            _ => self.bounds(0.0),
         }
     }
 

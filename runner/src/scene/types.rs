@@ -30,6 +30,8 @@ pub struct Scene {
     pub end: Option<f64>,
     /// Discretisation of the fluid.
     pub model: Model,
+    /// Steps between two filterings of the model that filters.
+    pub filter_every: u64,
     /// Composition of a step.
     pub integrator: Integrator,
     /// Correction of the summed density.
@@ -77,6 +79,10 @@ pub struct Fluid {
     pub sound_speed: f64,
     /// Pressure as a function of density.
     pub equation_of_state: EquationOfState,
+    /// Strength of the repulsion between particles that are very near, Pa; 0 for none.
+    pub anti_clump_pressure: f64,
+    /// Where it begins, in particle spacings.
+    pub anti_clump_radius: f64,
 }
 
 /// Outside forces, per mass.
@@ -136,6 +142,23 @@ pub enum Velocity {
         /// A point on the axis, m.
         centre: Point,
     },
+    /// Gresho's vortex: circles around the centre with speed peak r/R up to the radius R, then
+    /// peak (2 - r/R) up to 2 R, then none. (Liska & Wendroff, SIAM J. Sci. Comput. 25 (2003) 995.)
+    Gresho {
+        /// Largest speed, m/s.
+        peak: f64,
+        /// R, m.
+        radius: f64,
+        /// The middle, m.
+        centre: Point,
+    },
+    /// Circular orbits around the centre: speed (strength/r)^(1/2).
+    Kepler {
+        /// Gravitational constant times mass, m³/s².
+        strength: f64,
+        /// The middle, m.
+        centre: Point,
+    },
     /// A linear field: u = A x + b.
     Linear {
         /// The matrix A by rows, 1/s.
@@ -146,7 +169,7 @@ pub enum Velocity {
 }
 
 impl Velocity {
-    /// The velocity at `x`, m/s, from products and sums in one written order.
+    /// The velocity at `x`, m/s, from `+ - * / sqrt` in one written order.
     #[must_use]
     pub fn at(&self, x: Point) -> Point {
         match self {
@@ -162,11 +185,40 @@ impl Velocity {
                     w[0] * d[1] - w[1] * d[0],
                 ]
             }
+            Self::Gresho {
+                peak,
+                radius,
+                centre,
+            } => circling(x, *centre, |r| {
+                let q = r / radius;
+                // Divided by r where the speed is proportional to it: no 0/0 in the middle.
+                if q < 1.0 {
+                    peak / radius
+                } else if q < 2.0 {
+                    peak * (2.0 - q) / r
+                } else {
+                    0.0
+                }
+            }),
+            Self::Kepler { strength, centre } => circling(x, *centre, |r| {
+                if r > 0.0 {
+                    (strength / r).sqrt() / r
+                } else {
+                    0.0
+                }
+            }),
             Self::Linear { matrix, offset } => std::array::from_fn(|i| {
                 matrix[i][0] * x[0] + matrix[i][1] * x[1] + matrix[i][2] * x[2] + offset[i]
             }),
         }
     }
+}
+
+/// Counter-clockwise circles in the plane with the angular velocity of each radius.
+fn circling(x: Point, centre: Point, omega: impl Fn(f64) -> f64) -> Point {
+    let (dx, dy) = (x[0] - centre[0], x[1] - centre[1]);
+    let omega = omega((dx * dx + dy * dy).sqrt());
+    [-(omega * dy), omega * dx, 0.0]
 }
 
 impl Scene {

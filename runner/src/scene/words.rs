@@ -39,6 +39,8 @@ words! {
         Symplectic = "symplectic",
         /// Density advanced in time by the continuity equation: not reversible.
         Standard = "standard",
+        /// The symplectic scheme with its noise filtered out every few steps: dissipative.
+        Filtered = "filtered",
     }
 }
 
@@ -59,6 +61,9 @@ words! {
     DensityCorrection {
         /// A constant C_a per particle makes the first density the reference density.
         Constant = "constant",
+        /// The particles are moved until the bare sum is the reference density (see
+        /// [`isc`](crate::isc)).
+        Isc = "isc",
         /// The bare sum over the neighbours.
         None = "none",
     }
@@ -103,8 +108,12 @@ words! {
         Square = "square",
         /// Rows shifted by half a pitch, one particle per square of the spacing (2D).
         Hexagonal = "hexagonal",
+        /// Vogel's spiral around the middle of the region, a sunflower (2D).
+        Vogel = "vogel",
         /// Cubes of one particle spacing (3D).
         Cubic = "cubic",
+        /// Cubes of two particles each, at corners and middles (3D).
+        BodyCentred = "body-centred",
     }
 }
 
@@ -123,7 +132,8 @@ impl LatticeKind {
     pub const fn fits(self, dimension: Dimension) -> bool {
         matches!(
             (self, dimension),
-            (Self::Square | Self::Hexagonal, Dimension::Two) | (Self::Cubic, Dimension::Three)
+            (Self::Square | Self::Hexagonal | Self::Vogel, Dimension::Two)
+                | (Self::Cubic | Self::BodyCentred, Dimension::Three)
         )
     }
 }

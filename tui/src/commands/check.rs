@@ -20,7 +20,7 @@ const BYTES_PER_PARTICLE: u64 = 250;
 
 /// Tells what a scene takes.
 pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
-    let scene = load(&resolve(&arguments.scene)?, &arguments.set)?;
+    let scene = load(&resolve(&arguments.scene)?, &arguments.overrides())?;
     let needed = setup::estimated_bytes(&scene);
     setup::check_memory(&scene).map_err(loschmidt_runner::RunError::from)?;
     let initial = scene.initial_state()?;

@@ -2,6 +2,7 @@
 
 mod check;
 mod movie;
+mod reproduce;
 mod run;
 mod scenes;
 mod tui;
@@ -24,6 +25,7 @@ pub fn execute(arguments: Arguments) -> Result<ExitCode, Failure> {
         Some(Command::Resume(arguments)) => run::resume(&arguments),
         Some(Command::Movie(arguments)) => movie::movie(&arguments),
         Some(Command::Scenes(arguments)) => scenes::scenes(&arguments),
+        Some(Command::Reproduce(arguments)) => reproduce::reproduce(&arguments),
         Some(Command::Check(arguments)) => check::check(&arguments),
         Some(Command::Digest { snapshot }) => {
             let snapshot = Snapshot::read(&snapshot)?;

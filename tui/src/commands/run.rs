@@ -24,7 +24,7 @@ const STOP: [i32; 2] = [SIGINT, SIGTERM];
 pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
     let stop = stop_flag()?;
     let source = scene::resolve(&arguments.scene.scene)?;
-    let scene = scene::load(&source, &arguments.scene.set)?;
+    let scene = scene::load(&source, &arguments.scene.overrides())?;
     let options = arguments.work.options(Options {
         arithmetic: arguments.arithmetic.into(),
         ..Options::default()

@@ -19,7 +19,7 @@ pub fn scenes(arguments: &ScenesArguments) -> Result<ExitCode, Failure> {
             print(&text)
         }
         Some(ScenesCommand::Print(scene)) => {
-            let scene = load(&resolve(&scene.scene)?, &scene.set)?;
+            let scene = load(&resolve(&scene.scene)?, &scene.overrides())?;
             print(&scene.to_toml())
         }
     }

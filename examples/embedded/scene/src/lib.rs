@@ -188,6 +188,8 @@ fn parameters() -> Parameters<2> {
             radius: 0.95 * SPACING,
             softening: 0.0,
         },
+        anti_clump: None,
+        filter_every: 0,
         integrator: &STORMER_VERLET,
         // Positions below 32 m, velocities below 2048 m/s, densities below 2048 kg/m³.
         scale: Scale {
