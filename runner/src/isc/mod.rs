@@ -54,6 +54,9 @@ pub struct Settings {
     pub most_steps: usize,
     /// Largest distance, in spacings, that a particle is first moved by.
     pub jitter: f64,
+    /// Longest displacement of a particle in one step, in spacings: a step that would move one farther
+    /// is shortened as a whole. Short steps disturb the lattice less, and there are more of them.
+    pub longest: f64,
     /// Seed of the generator of these distances.
     pub seed: u64,
 }
@@ -70,6 +73,7 @@ impl Settings {
             tolerance: 1e-10,
             most_steps: 40,
             jitter: 0.1,
+            longest: 1.0,
             seed: 1876,
         }
     }
@@ -113,10 +117,6 @@ pub struct NotConverged {
 
 /// A Newton step that makes the error this much larger has lost its way.
 const DIVERGED: f64 = 1e3;
-
-/// The longest displacement of a particle in one step, in spacings: a step that would move one
-/// farther is shortened as a whole. (At the free surface the first one is about that long.)
-const LONGEST: f64 = 1.0;
 
 /// Moves the particles until all of their densities are the reference density. With `observe` one can
 /// look at the positions and densities (kg/m³) before each step and at the end.
@@ -166,7 +166,7 @@ pub fn correct<const D: usize>(
         let relative = (0.1 * rms_error).clamp(1e-8, 1e-2);
         let (mut shift, iterations) = solver.shortest(&pairs, &missing, relative);
         let longest = largest(shift.par_iter().map(|s| distance(s, &[0.0; D])));
-        let scale = (LONGEST * settings.spacing / longest).min(1.0);
+        let scale = (settings.longest * settings.spacing / longest).min(1.0);
         for (x, s) in fluid.iter_mut().zip(&mut shift) {
             for (x, s) in x.iter_mut().zip(s) {
                 *x += scale * *s;
