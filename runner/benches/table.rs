@@ -15,7 +15,7 @@ use loschmidt_runner::{ExecutorKind, Player};
 use states::{SIZES, Size, options, player, state};
 use std::time::Instant;
 
-const ROUNDS: usize = 7;
+const ROUNDS: usize = 5;
 /// Particle steps of a fast executor in a round.
 const WORK: f64 = 4e6;
 
