@@ -406,6 +406,7 @@ impl ApplicationHandler<Wake> for App {
         match self.create(event_loop) {
             Ok(canvas) => {
                 self.canvas = Some(canvas);
+                self.log.say("window opened");
                 self.resized();
             }
             Err(why) => {

@@ -1,7 +1,8 @@
 //! Where the parts of the window are: the picture above, and below it a strip with the bar of time.
 
 use super::state::{Stage, State};
-use crate::draw::Layout;
+use crate::draw::{Layout, Look};
+use crate::home::Home;
 use crate::raster::Rect;
 
 /// The smallest window with a strip, pixels.
@@ -34,26 +35,32 @@ impl Places {
             .map(|stage| Self::with(state, stage, state.size))
     }
 
-    /// The places in `width` times `height` pixels.
+    /// The places in a window of this size, pixels.
     #[must_use]
-    pub fn with(state: &State, stage: &Stage, (width, height): (usize, usize)) -> Self {
-        let plain = Layout::new(&stage.home, &state.look, 1, width, height).em;
+    pub fn with(state: &State, stage: &Stage, size: (usize, usize)) -> Self {
+        let panes = 1 + usize::from(stage.other.is_some());
+        Self::sized(&stage.home, &state.look, panes, state.scale, size)
+    }
+
+    /// The places for so many players. `scale`: pixels that make one of a plain display.
+    #[must_use]
+    pub fn sized(
+        home: &Home,
+        look: &Look,
+        panes: usize,
+        scale: f64,
+        (width, height): (usize, usize),
+    ) -> Self {
+        let plain = Layout::new(home, look, 1, width, height).em;
         // Readable on a display of many pixels, however small the window.
-        let em = plain.max((11.0 * state.scale) as usize).min(height / 8);
+        let em = plain.max((11.0 * scale) as usize).min(height / 8);
         let high = if width < SMALLEST.0 || height < SMALLEST.1 {
             0
         } else {
             9 * em / 2
         };
         let picture = Rect::new(0, 0, width, height - high);
-        let panes = 1 + usize::from(stage.other.is_some());
-        let layout = Layout::new(
-            &stage.home,
-            &state.look,
-            panes,
-            picture.width,
-            picture.height,
-        );
+        let layout = Layout::new(home, look, panes, picture.width, picture.height);
         let ends = (5 * em).min(width / 4);
         Self {
             picture,
