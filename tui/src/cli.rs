@@ -36,6 +36,8 @@ pub enum Command {
     Run(RunArguments),
     /// Watch a scene or an earlier run in the dashboard, in both directions of time; ? shows the keys
     Tui(TuiArguments),
+    /// Watch a scene or an earlier run in a window, in both directions of time; ? shows the keys
+    View(loschmidt_viewer::window::Arguments),
     /// Go on with an interrupted run
     Resume(ResumeArguments),
     /// Make a movie of a scene or of a finished run: numbered pictures, GIF, MP4

@@ -131,6 +131,8 @@ pub enum Action {
     Picture,
     /// The keys.
     Help,
+    /// The other arithmetic beside it, from the start, or without it again.
+    Beside,
     /// Leaves.
     Quit,
 }
@@ -264,6 +266,40 @@ pub const TABLE: &[Binding] = &[
     ),
 ];
 
+/// Keys of the window alone.
+pub const WINDOW: &[Binding] = &[binding(
+    "experiments",
+    &[(K::Char('x'), A::Beside)],
+    "from the start, fixed beside floating point",
+)];
+
+/// What the dashboard does and the window does not.
+const NOT_IN_WINDOW: [Action; 2] = [A::Scenes, A::Parameters];
+
+/// The keys that the window obeys, those of a group together.
+#[must_use]
+pub fn of_window() -> Vec<Binding> {
+    let obeyed = |binding: &&Binding| {
+        let mut actions = binding.keys.iter().map(|(_, action)| action);
+        !actions.any(|action| NOT_IN_WINDOW.contains(action))
+    };
+    let mut all: Vec<Binding> = TABLE.iter().filter(obeyed).copied().collect();
+    for binding in WINDOW {
+        let last = all.iter().rposition(|other| other.group == binding.group);
+        all.insert(last.map_or(all.len(), |n| n + 1), *binding);
+    }
+    all
+}
+
+/// What a key does in the window.
+#[must_use]
+pub fn window_action(key: Key) -> Option<Action> {
+    let own = WINDOW.iter().flat_map(|binding| binding.keys);
+    let own = own.filter(|(k, _)| *k == key).map(|(_, action)| *action);
+    own.chain(action(key))
+        .find(|action| !NOT_IN_WINDOW.contains(action))
+}
+
 /// Keys that do the same as one of the table, for other keyboards and habits.
 const ALSO: &[(Key, Action)] = &[
     (K::Char('='), A::ZoomIn),
@@ -315,15 +351,32 @@ mod tests {
 
     #[test]
     fn no_key_does_two_things() {
-        let in_table = TABLE.iter().flat_map(|binding| binding.keys);
+        let in_table = TABLE.iter().chain(WINDOW).flat_map(|binding| binding.keys);
         let keys: Vec<Key> = in_table.chain(ALSO).map(|(key, _)| *key).collect();
         assert_eq!(keys.iter().collect::<HashSet<_>>().len(), keys.len());
     }
 
     #[test]
     fn groups_stay_together() {
-        let mut groups: Vec<&str> = TABLE.iter().map(|binding| binding.group).collect();
-        groups.dedup();
-        assert_eq!(groups.iter().collect::<HashSet<_>>().len(), groups.len());
+        for table in [TABLE.to_vec(), of_window()] {
+            let mut groups: Vec<&str> = table.iter().map(|binding| binding.group).collect();
+            groups.dedup();
+            assert_eq!(groups.iter().collect::<HashSet<_>>().len(), groups.len());
+        }
+    }
+
+    #[test]
+    fn the_window_obeys_what_its_help_lists_and_nothing_else_of_the_table() {
+        let listed: Vec<(Key, Action)> = of_window()
+            .iter()
+            .flat_map(|binding| binding.keys.to_vec())
+            .collect();
+        for (key, action) in &listed {
+            assert_eq!(window_action(*key), Some(*action));
+        }
+        let all = TABLE.iter().flat_map(|binding| binding.keys);
+        for (key, _) in all.filter(|pair| !listed.contains(pair)) {
+            assert_eq!(window_action(*key), None);
+        }
     }
 }

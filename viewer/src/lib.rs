@@ -14,6 +14,7 @@
 //! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
 //! 6. What faces share: [`keys`], the one table of keys; [`track`], the ways out and back as they are
 //!    while a user goes to and fro.
+//! 7. [`window`]: the desktop window.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
 //! every machine. Every thread owns the rows it draws, sums over particles are sums of integers or
@@ -37,6 +38,7 @@ pub mod raster;
 mod stamp;
 pub mod text;
 pub mod track;
+pub mod window;
 
 pub use camera::{Projection, View};
 pub use colour::{Colormap, Rgb, Theme};

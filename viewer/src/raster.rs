@@ -142,6 +142,14 @@ impl Raster {
         }
     }
 
+    /// The same picture in a taller or lower one; new rows at the bottom are of this colour.
+    #[must_use]
+    pub fn extended(mut self, height: usize, colour: Rgb) -> Self {
+        self.pixels.resize(self.width * height, colour.0);
+        self.height = height;
+        self
+    }
+
     /// Mixes a colour into a pixel with a weight of `alpha` / 255; outside nothing happens.
     pub fn blend(&mut self, x: i64, y: i64, colour: Rgb, alpha: u8) {
         let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else {

@@ -3,3 +3,4 @@
 mod home;
 mod movie;
 mod pixels;
+mod window;

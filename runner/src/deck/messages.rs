@@ -69,6 +69,24 @@ pub enum Report {
     Kept(PathBuf),
     /// It could not be written.
     NotKept(String),
+    /// The player in the other arithmetic has something to say, before the report that it belongs to.
+    Beside(Beside),
+}
+
+/// What the player in the other arithmetic says.
+#[derive(Clone, Debug)]
+pub enum Beside {
+    /// Its particles.
+    Picture(Box<Frame>),
+    /// Its energies and entropy, measured with those of the first.
+    Row {
+        /// The row.
+        row: Box<Row>,
+        /// The direction in which this state was reached.
+        travel: Arrow,
+    },
+    /// Its numbers ended; it says nothing more.
+    Ended(Fault),
 }
 
 /// A scene that was set up.

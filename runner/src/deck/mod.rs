@@ -15,7 +15,9 @@
 //!
 //! 1. `messages`: [`Command`], [`Report`]. 2. `opening`: what is played, a scene or an earlier run.
 //! 3. `worker`: the thread. 4. `clock`: the pace. 5. `waypoints`: who is not on the way home.
+//! 6. `beside`: the same in the other arithmetic.
 
+mod beside;
 mod clock;
 mod keep;
 mod messages;
@@ -25,7 +27,8 @@ mod worker;
 
 pub use clock::{faster, slower, suggested_pace};
 pub use messages::{
-    Arrival, Command, Meddling, Moment, Opened, Perturbation, Refusal, Report, Seek, Shot, Status,
+    Arrival, Beside, Command, Meddling, Moment, Opened, Perturbation, Refusal, Report, Seek, Shot,
+    Status,
 };
 pub use opening::{Opening, OpeningError, Recorded};
 
@@ -36,6 +39,25 @@ use std::thread::JoinHandle;
 
 /// Pictures a second at most.
 pub const FRAMES: u32 = 30;
+
+/// What a face wishes for besides the first player's reports.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wishes {
+    /// Pictures a second at most.
+    pub frames: u32,
+    /// Whether a second player does the same steps in the other arithmetic; only for a scene that is
+    /// played from its start.
+    pub beside: bool,
+}
+
+impl Default for Wishes {
+    fn default() -> Self {
+        Self {
+            frames: FRAMES,
+            beside: false,
+        }
+    }
+}
 
 /// A player on a thread of its own.
 pub struct Deck {
@@ -54,12 +76,24 @@ impl Deck {
         opening: Opening,
         report: impl Fn(Report) + Send + 'static,
     ) -> std::io::Result<Self> {
+        Self::open_with(opening, Wishes::default(), report)
+    }
+
+    /// The same for a face with wishes of its own.
+    ///
+    /// # Errors
+    /// The thread cannot be started.
+    pub fn open_with(
+        opening: Opening,
+        wishes: Wishes,
+        report: impl Fn(Report) + Send + 'static,
+    ) -> std::io::Result<Self> {
         let (commands, inbox) = channel();
         let ready = Arc::new(AtomicBool::new(true));
         let drawn = Arc::clone(&ready);
         let thread = std::thread::Builder::new()
             .name("deck".to_owned())
-            .spawn(move || worker::work(opening, inbox, drawn, Box::new(report)))?;
+            .spawn(move || worker::work(opening, wishes, inbox, drawn, Box::new(report)))?;
         Ok(Self {
             commands: Some(commands),
             ready,

@@ -1,10 +1,12 @@
 //! The thread of a deck.
 
-use super::FRAMES;
+use super::Wishes;
+use super::beside::Companion;
 use super::clock::{Clock, suggested_pace};
 use super::keep::Keeper;
 use super::messages::{
-    Arrival, Command, Meddling, Moment, Opened, Perturbation, Refusal, Report, Seek, Shot, Status,
+    Arrival, Beside, Command, Meddling, Moment, Opened, Perturbation, Refusal, Report, Seek, Shot,
+    Status,
 };
 use super::opening::{Opening, Recorded};
 use super::waypoints::Waypoints;
@@ -25,7 +27,13 @@ const PIECE: u64 = 20_000;
 type Tell = Box<dyn Fn(Report) + Send>;
 
 /// Plays until the face has gone.
-pub(super) fn work(opening: Opening, inbox: Receiver<Command>, ready: Arc<AtomicBool>, tell: Tell) {
+pub(super) fn work(
+    opening: Opening,
+    wishes: Wishes,
+    inbox: Receiver<Command>,
+    ready: Arc<AtomicBool>,
+    tell: Tell,
+) {
     let tell: Arc<Mutex<Tell>> = Arc::new(Mutex::new(tell));
     let ours = Arc::clone(&tell);
     let say = move |report| {
@@ -35,12 +43,17 @@ pub(super) fn work(opening: Opening, inbox: Receiver<Command>, ready: Arc<Atomic
     };
     // A defect must not leave a face that waits for ever.
     let played = catch_unwind(AssertUnwindSafe(move || {
+        let beside = wishes.beside && opening.recorded.is_none();
+        let companion = match beside.then(|| Companion::new(&opening)).transpose() {
+            Ok(companion) => companion,
+            Err(error) => return say(Report::Failed(error.to_string())),
+        };
         let (pace, arithmetic) = (opening.pace, opening.options.arithmetic);
         let (player, recorded) = match opening.player() {
             Ok(opened) => opened,
             Err(error) => return say(Report::Failed(error.to_string())),
         };
-        let mut worker = Worker::new(player, pace, ready, Box::new(say));
+        let mut worker = Worker::new(player, companion, &wishes, pace, ready, Box::new(say));
         match worker.begin(recorded, arithmetic) {
             Ok(()) => worker.run(&inbox),
             Err(error) => (worker.tell)(Report::Failed(error.to_string())),
@@ -57,6 +70,10 @@ pub(super) fn work(opening: Opening, inbox: Receiver<Command>, ready: Arc<Atomic
 
 struct Worker {
     player: Player,
+    /// The same in the other arithmetic, where it is wished for and its numbers have not ended.
+    companion: Option<Companion>,
+    /// Pictures a second at most.
+    frames: u32,
     tell: Tell,
     /// The face wants another picture.
     ready: Arc<AtomicBool>,
@@ -86,7 +103,14 @@ struct Worker {
 }
 
 impl Worker {
-    fn new(player: Player, pace: Option<f64>, ready: Arc<AtomicBool>, tell: Tell) -> Self {
+    fn new(
+        player: Player,
+        companion: Option<Companion>,
+        wishes: &Wishes,
+        pace: Option<f64>,
+        ready: Arc<AtomicBool>,
+        tell: Tell,
+    ) -> Self {
         let plan = Plan::of(player.scene());
         let dt = player.scene().time_step();
         let pace = pace.unwrap_or_else(|| suggested_pace(plan.out as f64 * dt));
@@ -96,6 +120,8 @@ impl Worker {
             clock: Clock::new(pace / dt, Instant::now()),
             good: (player.home().clone(), 0, Arrow::Forward),
             player,
+            companion,
+            frames: wishes.frames.max(1),
             tell,
             ready,
             pace,
@@ -199,6 +225,7 @@ impl Worker {
                 let steps = due.min(self.piece).min(self.room());
                 match self.player.advance(steps) {
                     Ok(()) => {
+                        self.beside(|companion| companion.advance(steps));
                         self.clock.took(steps, Instant::now());
                         self.moved(self.player.arrow());
                     }
@@ -256,6 +283,7 @@ impl Worker {
                 return (self.tell)(Report::Refused(why.into()));
             }
         }
+        self.beside(|companion| companion.walk(next - position));
         self.clock.took(next.abs_diff(position), Instant::now());
         let ended = next == seek.target;
         if ended {
@@ -269,6 +297,18 @@ impl Worker {
             self.stand();
             (self.tell)(Report::SeekEnded(true));
             self.report();
+        }
+    }
+
+    /// Has the player in the other arithmetic do something, unless its numbers have ended.
+    fn beside<T>(&mut self, act: impl FnOnce(&mut Companion) -> Result<T, Fault>) -> Option<T> {
+        match act(self.companion.as_mut()?) {
+            Ok(done) => Some(done),
+            Err(fault) => {
+                self.companion = None;
+                (self.tell)(Report::Beside(Beside::Ended(fault)));
+                None
+            }
         }
     }
 
@@ -291,6 +331,9 @@ impl Worker {
             self.player.position(),
             self.player.arrow(),
         );
+        if let Some(companion) = &mut self.companion {
+            companion.keep_good();
+        }
     }
 
     /// Measures the state, and marks it or compares it with the marks.
@@ -318,6 +361,9 @@ impl Worker {
                     self.astray = astray.or(self.astray);
                 }
             }
+        }
+        if let Some(report) = self.beside(|companion| companion.measure(travel)) {
+            (self.tell)(report);
         }
         (self.tell)(Report::Moment(Box::new(Moment {
             row,
@@ -357,6 +403,9 @@ impl Worker {
         let (state, position, arrow) = &self.good;
         // It came from this very player: it fits.
         let _ = self.player.restore(state, *position, *arrow);
+        if let Some(companion) = &mut self.companion {
+            companion.back_to_good();
+        }
         self.playing = false;
         self.seek = None;
         self.stand();
@@ -430,6 +479,9 @@ impl Worker {
         }
         self.seek = None;
         self.player.turn();
+        if let Some(companion) = &mut self.companion {
+            companion.turn();
+        }
         self.keep_good();
         self.stand();
         (self.tell)(Report::Turned(self.player.arrow()));
@@ -502,7 +554,7 @@ impl Worker {
         if !self.changed {
             return wait;
         }
-        let pause = Duration::from_secs(1) / FRAMES;
+        let pause = Duration::from_secs(1) / self.frames;
         let age = self.pictured.map_or(pause, |then| then.elapsed());
         if age < pause {
             return wait.min(pause - age);
@@ -515,6 +567,9 @@ impl Worker {
             Ok(frame) => {
                 self.pictured = Some(Instant::now());
                 self.changed = false;
+                if let Some(report) = self.beside(Companion::picture) {
+                    (self.tell)(report);
+                }
                 let status = self.status();
                 (self.tell)(Report::Shot(Box::new(Shot { frame, status })));
             }

@@ -6,6 +6,7 @@ mod reproduce;
 mod run;
 mod scenes;
 mod tui;
+mod view;
 
 use crate::cli::{Arguments, Command, RunArguments, TuiArguments};
 use crate::dashboard;
@@ -22,6 +23,7 @@ pub fn execute(arguments: Arguments) -> Result<ExitCode, Failure> {
         None => run::run(&RunArguments::default()),
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Tui(arguments)) => tui::tui(&arguments),
+        Some(Command::View(arguments)) => view::view(&arguments),
         Some(Command::Resume(arguments)) => run::resume(&arguments),
         Some(Command::Movie(arguments)) => movie::movie(&arguments),
         Some(Command::Scenes(arguments)) => scenes::scenes(&arguments),

@@ -102,7 +102,7 @@ fn on_report(state: &mut State, report: Report) {
         return;
     };
     match report {
-        Report::Opened(_) | Report::Failed(_) => {}
+        Report::Opened(_) | Report::Failed(_) | Report::Beside(_) => {}
         Report::Shot(shot) => {
             stage.frame = shot.frame;
             stage.status = shot.status;

@@ -1,0 +1,453 @@
+//! How the state changes, and what is asked for: without a clock, a file or a window.
+
+use super::message::{Button, Effect, Message, Mouse, Request};
+use super::places::Places;
+use super::state::{Drag, Kept, Notice, Overlay, Stage, State, Tone};
+use crate::camera::{Projection, View};
+use crate::colour::{Colormap, Theme};
+use crate::colouring::Colouring;
+use crate::keys::{self, Action, Key};
+use loschmidt_core::Reversibility;
+use loschmidt_runner::deck::{Beside, Command, Meddling, Perturbation, Report, faster, slower};
+use loschmidt_runner::{ArithmeticKind, Arrow};
+use std::path::Path;
+use std::time::Duration;
+
+/// How long a notice stays.
+const STAYS: Duration = Duration::from_secs(6);
+
+/// Magnification of a notch of the wheel.
+const NOTCH: f64 = 1.15;
+
+/// Changes the state; returns what is to be done.
+pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
+    match message {
+        Message::Key(key) => return on_key(state, key),
+        Message::Mouse(mouse, at) => return on_mouse(state, mouse, at),
+        Message::Resized(width, height, scale) => {
+            state.size = (width, height);
+            state.scale = scale;
+        }
+        Message::Report(deck, report) if deck == state.deck => on_report(state, *report),
+        Message::Report(..) => {}
+        Message::Tick(now) => {
+            state.now = now;
+            state.notice.take_if(|notice| notice.until < now);
+        }
+        Message::Pictured(Ok(path)) => {
+            tell(state, Tone::Done, format!("picture: {}", path.display()));
+        }
+        Message::Pictured(Err(why)) | Message::Tint(Err(why)) => tell(state, Tone::Refused, why),
+        Message::Tint(Ok(picture)) => {
+            if let Some(stage) = &mut state.stage {
+                let colours = picture.tint(&stage.home).into();
+                state.look.colouring = Colouring::Picture(std::sync::Arc::clone(&colours));
+                stage.tint = Some(colours);
+            }
+            state.picture = Some(picture);
+        }
+        Message::NotOpened(why) if state.stage.is_none() => state.overlay = Overlay::Error(why),
+        Message::NotOpened(why) => {
+            let line = why.lines().next().unwrap_or_default().to_owned();
+            tell(state, Tone::Refused, line);
+        }
+        Message::Opening(deck, request) => {
+            state.deck = deck;
+            state.request = request;
+            state.stage = None;
+            state.banner = None;
+            state.overlay = Overlay::None;
+            state.notice = None;
+            state.kept = None;
+            state.drag = None;
+            state.look.view = View::default();
+        }
+    }
+    Vec::new()
+}
+
+fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
+    state.notice = Some(Notice {
+        tone,
+        text: text.into(),
+        until: state.now + STAYS,
+    });
+}
+
+fn on_report(state: &mut State, report: Report) {
+    match report {
+        Report::Opened(opened) => {
+            let stage = Stage::new(opened, state.request.beside, state.picture.as_ref());
+            // The colours of a picture belong to the particles of one scene.
+            match (&stage.tint, &state.look.colouring) {
+                (Some(tint), _) => state.look.colouring = Colouring::Picture(tint.clone()),
+                (None, Colouring::Picture(_)) => state.look.colouring = Colouring::default(),
+                _ => {}
+            }
+            state.stage = Some(stage);
+            return;
+        }
+        Report::Failed(why) => {
+            state.stage = None;
+            state.overlay = Overlay::Error(why);
+            return;
+        }
+        _ => {}
+    }
+    let Some(stage) = &mut state.stage else {
+        return;
+    };
+    match report {
+        Report::Opened(_) | Report::Failed(_) => {}
+        Report::Shot(shot) => {
+            stage.frame = shot.frame;
+            stage.status = shot.status;
+        }
+        Report::Status(status) => {
+            // A drag goes on wanting; a key's wish is under way now.
+            if state.drag.is_none() {
+                stage.wanted = None;
+            }
+            stage.status = status;
+        }
+        Report::Moment(moment) => {
+            if moment.regular {
+                let span = stage.home.span;
+                stage.ways.push(moment.row.clone(), moment.travel, span);
+            }
+            stage.moment = Some(moment);
+        }
+        Report::Beside(beside) => {
+            let ended = match &beside {
+                Beside::Ended(fault) => Some(fault.to_string()),
+                _ => None,
+            };
+            stage.hear(beside);
+            if let Some(fault) = ended {
+                let text = format!("the other arithmetic's numbers ended: {fault}");
+                tell(state, Tone::Warning, text);
+            }
+        }
+        Report::Turned(arrow) => {
+            stage.turning = false;
+            stage.status.arrow = arrow;
+            let float = stage.status.arithmetic == ArithmeticKind::Float;
+            let (tone, text) = match arrow {
+                Arrow::Backward if float => (
+                    Tone::Warning,
+                    "time reversed, in floating point: these sums do not lead back home",
+                ),
+                Arrow::Backward => (
+                    Tone::Done,
+                    "time reversed: every velocity has changed its sign",
+                ),
+                Arrow::Forward => (Tone::Done, "time runs forward again"),
+            };
+            tell(state, tone, text);
+        }
+        Report::Meddled(meddling) => {
+            let text = meddled(stage, &meddling);
+            tell(state, Tone::Warning, text);
+        }
+        Report::Arrived(arrival) => state.banner = Some(arrival),
+        Report::SeekEnded(true) => {}
+        Report::SeekEnded(false) => tell(state, Tone::Done, "stopped on the way"),
+        Report::Refused(why) => {
+            stage.turning = false;
+            stage.wanted = None;
+            tell(state, Tone::Refused, why.to_string());
+        }
+        Report::Fault(fault) => {
+            let text = format!("the numbers ended: {fault}; this is the last good state");
+            tell(state, Tone::Refused, text);
+        }
+        Report::Kept(path) => {
+            let text = format!("saved; open it with  loschmidt view {}", path.display());
+            state.kept = Some(Kept {
+                path,
+                position: stage.status.position,
+                arrow: stage.status.arrow,
+                meddling: stage.status.meddling.len(),
+            });
+            tell(state, Tone::Done, text);
+        }
+        Report::NotKept(why) => tell(state, Tone::Refused, why),
+    }
+}
+
+fn meddled(stage: &Stage, meddling: &Meddling) -> String {
+    match meddling.what {
+        Perturbation::Flipped(particle) => {
+            let quantum = stage.opened.length_quantum;
+            format!("particle {particle}: last bit flipped, it stands {quantum:.1e} m aside")
+        }
+        Perturbation::Switched(ArithmeticKind::Float) => {
+            "floating point from here on: the same terms, their sums rounded".to_owned()
+        }
+        Perturbation::Switched(ArithmeticKind::Fixed) => "fixed point from here on".to_owned(),
+    }
+}
+
+fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
+    let action = keys::window_action(key);
+    if action == Some(Action::Quit) {
+        return vec![Effect::Quit];
+    }
+    match state.overlay {
+        Overlay::None => {}
+        Overlay::Help => {
+            state.overlay = Overlay::None;
+            return Vec::new();
+        }
+        Overlay::Error(_) => return Vec::new(),
+    }
+    if state.banner.take().is_some() && matches!(action, Some(Action::Play | Action::Cancel)) {
+        // These were for the banner; others close it and do what they always do.
+        return Vec::new();
+    }
+    action.map_or_else(Vec::new, |action| on_action(state, action))
+}
+
+fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
+    if action == Action::Help {
+        state.overlay = Overlay::Help;
+        return Vec::new();
+    }
+    if on_view(state, action) {
+        return Vec::new();
+    }
+    let Some(stage) = &mut state.stage else {
+        return Vec::new();
+    };
+    let status = &stage.status;
+    let deck = |command| vec![Effect::Deck(command)];
+    match action {
+        Action::Play if status.at_start && status.position <= 0 => {
+            let text = "this is the start, and time points back: r reverses it";
+            tell(state, Tone::Refused, text);
+            Vec::new()
+        }
+        Action::Play => deck(Command::Play(!status.playing || status.seek.is_some())),
+        Action::Turn => turn(stage),
+        Action::StepBack => deck(Command::StepBy(-1)),
+        Action::StepOn => deck(Command::StepBy(1)),
+        Action::Slower => deck(Command::Pace(slower(status.pace))),
+        Action::Faster => deck(Command::Pace(faster(status.pace))),
+        Action::ToStart => deck(Command::Seek(0)),
+        Action::ToFarthest => deck(Command::Seek(status.farthest)),
+        Action::ScrubBack | Action::ScrubOn => {
+            // A key that is held adds up, before the simulation has heard of the first.
+            let under_way = stage.wanted.or(status.seek.map(|seek| seek.target));
+            let from = under_way.unwrap_or(status.position);
+            let by = (stage.span() / 20).max(1);
+            let sign = if action == Action::ScrubBack { -1 } else { 1 };
+            let target = (from + sign * by).max(0);
+            stage.wanted = Some(target);
+            deck(Command::Seek(target))
+        }
+        Action::Cancel if status.seek.is_some() => deck(Command::Cancel),
+        Action::Cancel => {
+            state.notice = None;
+            Vec::new()
+        }
+        // The one in the middle of the lattice order.
+        Action::Flip => deck(Command::Flip(stage.frame.id.len() as u64 / 2)),
+        Action::Switch => deck(Command::Switch(match status.arithmetic {
+            ArithmeticKind::Fixed => ArithmeticKind::Float,
+            ArithmeticKind::Float => ArithmeticKind::Fixed,
+        })),
+        Action::Beside => vec![Effect::Open(with_or_without(&state.request))],
+        Action::Keep => vec![Effect::Keep],
+        Action::Picture => vec![Effect::Picture],
+        _ => Vec::new(),
+    }
+}
+
+fn turn(stage: &mut Stage) -> Vec<Effect> {
+    stage.turning = matches!(
+        stage.opened.reversibility,
+        Reversibility::BitExact | Reversibility::UpToRounding
+    );
+    let mut effects = vec![Effect::Deck(Command::Turn)];
+    if !stage.status.playing && stage.status.at_start {
+        // At the start there is one thing that one can want: to see it again.
+        effects.push(Effect::Deck(Command::Play(true)));
+    }
+    effects
+}
+
+/// The same from its start, with the other arithmetic beside it, or without it.
+fn with_or_without(request: &Request) -> Request {
+    let mut name = request.name.clone();
+    if Path::new(&name).is_dir() {
+        // A run is what it is; its scene can be played anew.
+        name = format!("{}/scene.toml", name.trim_end_matches('/'));
+    }
+    Request {
+        name,
+        beside: !request.beside,
+        ..request.clone()
+    }
+}
+
+/// What only changes how the scene is looked at; whether it was that.
+fn on_view(state: &mut State, action: Action) -> bool {
+    const ANGLE: f64 = 0.12;
+    let look = &mut state.look;
+    match action {
+        Action::Colour => {
+            let tint = state.stage.as_ref().and_then(|stage| stage.tint.clone());
+            look.colouring = next_colouring(&look.colouring, tint.map(Colouring::Picture));
+        }
+        Action::Colormap => look.colormap = next_colormap(look.colormap),
+        Action::Theme => {
+            look.theme = if look.theme == Theme::DARK {
+                Theme::LIGHT
+            } else {
+                Theme::DARK
+            }
+        }
+        Action::ZoomIn => look.view = look.view.zoomed(1.25),
+        Action::ZoomOut => look.view = look.view.zoomed(0.8),
+        Action::ResetView => look.view = View::default(),
+        Action::PanLeft => part(state, [-1.0, 0.0]),
+        Action::PanRight => part(state, [1.0, 0.0]),
+        Action::PanDown => part(state, [0.0, -1.0]),
+        Action::PanUp => part(state, [0.0, 1.0]),
+        Action::OrbitLeft => look.view = look.view.orbited(-ANGLE, 0.0),
+        Action::OrbitRight => look.view = look.view.orbited(ANGLE, 0.0),
+        Action::OrbitDown => look.view = look.view.orbited(0.0, -ANGLE),
+        Action::OrbitUp => look.view = look.view.orbited(0.0, ANGLE),
+        _ => return false,
+    }
+    true
+}
+
+/// Moves the view by a tenth of the field to the right and up.
+fn part(state: &mut State, [right, up]: [f64; 2]) {
+    let Some(places) = Places::of(state) else {
+        return;
+    };
+    let (width, height) = (places.field.width as f64, places.field.height as f64);
+    let by = [-right * 0.1 * width, up * 0.1 * height];
+    drag_view(state, by);
+}
+
+/// The measured ones in turn, and that of the picture where there is one.
+fn next_colouring(now: &Colouring, tint: Option<Colouring>) -> Colouring {
+    let all = Colouring::MEASURED;
+    match (all.iter().position(|c| c == now), tint) {
+        (Some(place), Some(tint)) if place + 1 == all.len() => tint,
+        (Some(place), _) => all[(place + 1) % all.len()].clone(),
+        (None, _) => all[0].clone(),
+    }
+}
+
+/// The one that suits the colouring, and then all of them in turn.
+fn next_colormap(now: Option<Colormap>) -> Option<Colormap> {
+    let all = Colormap::ALL;
+    match now {
+        None => Some(all[0]),
+        Some(map) => {
+            let place = all.iter().position(|m| *m == map).unwrap_or(0);
+            all.get(place + 1).copied()
+        }
+    }
+}
+
+fn on_mouse(state: &mut State, mouse: Mouse, at: [f64; 2]) -> Vec<Effect> {
+    if state.overlay != Overlay::None {
+        if matches!(mouse, Mouse::Press(_)) && state.overlay == Overlay::Help {
+            state.overlay = Overlay::None;
+        }
+        return Vec::new();
+    }
+    let Some(places) = Places::of(state) else {
+        return Vec::new();
+    };
+    let Some(stage) = &mut state.stage else {
+        return Vec::new();
+    };
+    match (mouse, state.drag) {
+        (Mouse::Press(Button::Left), _) if places.on_bar(at) => {
+            state.banner = None;
+            let step = places.step_at(at, stage.span());
+            return scrub(state, step);
+        }
+        (Mouse::Press(button), _) => {
+            state.drag = places.field_at(at).map(|_| {
+                let space = stage.home.dimension == 3 && button == Button::Left;
+                if space {
+                    Drag::Orbit(at)
+                } else {
+                    Drag::Pan(at)
+                }
+            });
+        }
+        (Mouse::Move, Some(Drag::Bar(last))) => {
+            let step = places.step_at(at, stage.span());
+            if step != last {
+                return scrub(state, step);
+            }
+        }
+        (Mouse::Move, Some(Drag::Pan(last))) => {
+            state.drag = Some(Drag::Pan(at));
+            drag_view(state, [at[0] - last[0], at[1] - last[1]]);
+        }
+        (Mouse::Move, Some(Drag::Orbit(last))) => {
+            state.drag = Some(Drag::Orbit(at));
+            // Half a turn is a drag over the height of the field.
+            let angle = std::f64::consts::PI / places.field.height.max(1) as f64;
+            let [yaw, pitch] = [-(at[0] - last[0]) * angle, (at[1] - last[1]) * angle];
+            state.look.view = state.look.view.orbited(yaw, pitch);
+        }
+        (Mouse::Release, _) => {
+            state.drag = None;
+            stage.wanted = None;
+        }
+        (Mouse::Wheel(notches), _) => zoom_at(state, &places, notches, at),
+        (Mouse::Move, None) => {}
+    }
+    Vec::new()
+}
+
+/// To this step, by integrating, as fast as it goes; a later one takes its place.
+fn scrub(state: &mut State, step: i64) -> Vec<Effect> {
+    state.drag = Some(Drag::Bar(step));
+    if let Some(stage) = &mut state.stage {
+        stage.wanted = Some(step);
+    }
+    vec![Effect::Deck(Command::Seek(step))]
+}
+
+fn projection(state: &State) -> Option<Projection> {
+    let places = Places::of(state)?;
+    let stage = state.stage.as_ref()?;
+    let (width, height) = (places.field.width, places.field.height);
+    Some(Projection::new(
+        &stage.home,
+        &state.look.view,
+        width,
+        height,
+    ))
+}
+
+/// Moves the picture by so many pixels to the right and down.
+fn drag_view(state: &mut State, pixels: [f64; 2]) {
+    if let Some(projection) = projection(state) {
+        state.look.view = state.look.view.dragged(pixels, &projection);
+    }
+}
+
+/// Zooms; what is under the mouse stays there.
+fn zoom_at(state: &mut State, places: &Places, notches: f64, at: [f64; 2]) {
+    let (Some(field), Some(projection)) = (places.field_at(at), projection(state)) else {
+        return;
+    };
+    let factor = libm::pow(NOTCH, notches.clamp(-10.0, 10.0));
+    let x = at[0] - field.x as f64 - 0.5 * field.width as f64;
+    let y = at[1] - field.y as f64 - 0.5 * field.height as f64;
+    let away = [x, y].map(|d| d * (1.0 - factor) / factor);
+    // Dragging is in pixels of the projection before the zoom.
+    state.look.view = state.look.view.dragged(away, &projection).zoomed(factor);
+}

@@ -1,0 +1,132 @@
+//! The window without a display.
+
+use loschmidt_runner::Deck;
+use loschmidt_runner::Options;
+use loschmidt_runner::deck::{Command, Opening, Report};
+use loschmidt_viewer::window::{Button, Drag, Effect, Message, Mouse, Places, Request};
+use loschmidt_viewer::window::{State, compose, update};
+use loschmidt_viewer::{Key, Look, Pane, Rgb, Theme, draw, png};
+use std::io::Cursor;
+use std::sync::mpsc::channel;
+
+const SIZE: (usize, usize) = (800, 500);
+
+/// A dam break that stands at step 40.
+fn at_forty() -> State {
+    let request = Request {
+        name: "dam-break".to_owned(),
+        set: vec!["particle_spacing=0.05".to_owned()],
+        ..Request::default()
+    };
+    let mut state = State::new(SIZE, 1.0, Look::default(), None);
+    let opening = Opening::of(&request.name, &request.set, Options::default()).expect("a scene");
+    let (sender, inbox) = channel();
+    let deck = Deck::open(opening, move |report| drop(sender.send(report))).expect("a deck");
+    update(&mut state, Message::Opening(1, request));
+    deck.send(Command::Play(false));
+    deck.send(Command::Seek(40));
+    for report in inbox {
+        let shot = matches!(report, Report::Shot(_));
+        update(&mut state, Message::Report(1, Box::new(report)));
+        if shot {
+            deck.ready();
+            let stage = state.stage.as_ref().expect("a scene");
+            if stage.frame.step == 40 && stage.status.seek.is_none() {
+                break;
+            }
+        }
+    }
+    state
+}
+
+#[test]
+fn the_window_is_its_png_and_the_rasterisers_frame_above_the_bar_of_time() {
+    let state = at_forty();
+    let pixels = compose(&state, SIZE);
+    let mut file = Vec::new();
+    png::write(&pixels, &mut file).expect("a PNG");
+    assert_eq!(png::read(Cursor::new(file), Rgb(0)).expect("a PNG"), pixels);
+    let stage = state.stage.as_ref().expect("a scene");
+    let places = Places::of(&state).expect("places");
+    let look = Look {
+        caption: format!("{} particles", stage.frame.id.len()),
+        ..Look::default()
+    };
+    let panes = [Pane::new(&stage.frame, &stage.ways.history)];
+    let (width, height) = (places.picture.width, places.picture.height);
+    let frame = draw(&panes, &stage.home, &look, width, height);
+    assert!(pixels.part(places.picture) == frame);
+}
+
+#[test]
+fn dragging_the_bar_integrates_to_the_step_under_the_mouse() {
+    let mut state = at_forty();
+    let places = Places::of(&state).expect("places");
+    let y = places.bar.y as f64 + 1.0;
+    let span = state.stage.as_ref().expect("a scene").span();
+    let mut at = |mouse, step: i64| {
+        let x = places.bar_at(step, span);
+        update(&mut state, Message::Mouse(mouse, [x, y]))
+    };
+    let target = |effects: Vec<Effect>| match effects[..] {
+        [Effect::Deck(Command::Seek(step))] => step,
+        _ => panic!("{effects:?}"),
+    };
+    let pixel = span / places.bar.width as i64 + 1;
+    assert!((target(at(Mouse::Press(Button::Left), span / 2)) - span / 2).abs() <= pixel);
+    assert!((target(at(Mouse::Move, span / 4)) - span / 4).abs() <= pixel);
+    assert!(at(Mouse::Release, span / 4).is_empty());
+    assert!(at(Mouse::Move, span / 3).is_empty());
+}
+
+#[test]
+fn what_is_under_the_mouse_stays_there_when_the_wheel_turns() {
+    let mut state = at_forty();
+    let mouse = [130.0, 210.0];
+    let point = |state: &State| {
+        let field = Places::of(state).expect("places").field;
+        let home = &state.stage.as_ref().expect("a scene").home;
+        let view = &state.look.view;
+        loschmidt_viewer::Projection::new(home, view, field.width, field.height)
+            .unproject(mouse[0] - field.x as f64, mouse[1] - field.y as f64)
+    };
+    let before = point(&state);
+    update(&mut state, Message::Mouse(Mouse::Wheel(3.0), mouse));
+    let after = point(&state);
+    assert!(state.look.view.zoom > 1.4);
+    assert!(
+        (0..2).all(|k| (before[k] - after[k]).abs() < 1e-9),
+        "{before:?} {after:?}"
+    );
+    update(
+        &mut state,
+        Message::Mouse(Mouse::Press(Button::Left), mouse),
+    );
+    assert_eq!(state.drag, Some(Drag::Pan(mouse)));
+}
+
+#[test]
+fn help_theme_and_every_size_can_be_drawn() {
+    let mut state = at_forty();
+    update(&mut state, Message::Key(Key::Char('t')));
+    assert_eq!(state.look.theme, Theme::LIGHT);
+    let plain = compose(&state, SIZE);
+    update(&mut state, Message::Key(Key::Char('?')));
+    assert!(compose(&state, SIZE) != plain);
+    update(&mut state, Message::Key(Key::Escape));
+    assert!(compose(&state, SIZE) == plain);
+    for size in [
+        (0, 0),
+        (1, 1),
+        (1, 300),
+        (300, 1),
+        (159, 119),
+        (320, 240),
+        (333, 777),
+    ] {
+        for scale in [1.0, 2.5] {
+            update(&mut state, Message::Resized(size.0, size.1, scale));
+            assert_eq!(compose(&state, size).pixels().len(), size.0 * size.1);
+        }
+    }
+}
