@@ -150,9 +150,9 @@ fn html(lab: &Lab<'_>, sections: &[Section], figure: impl Fn(&str) -> String) ->
             let _ = writeln!(out, "<p>{}</p>", escaped(note));
         }
         for shown in &section.figures {
-            let _ = write!(
+            let _ = writeln!(
                 out,
-                "<figure>{}<figcaption>{}</figcaption></figure>\n",
+                "<figure>{}<figcaption>{}</figcaption></figure>",
                 figure(&shown.file),
                 escaped(&shown.caption)
             );

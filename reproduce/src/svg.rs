@@ -119,7 +119,7 @@ impl Axis {
         let x = if self.log { libm::log10(x) } else { x };
         let t = (x - self.low) / (self.high - self.low);
         (x.is_finite() && (-0.02..=1.02).contains(&t))
-            .then(|| self.from + t * (self.to - self.from))
+            .then_some(self.from + t * (self.to - self.from))
     }
 
     /// Values with a tick and their labels.
@@ -211,18 +211,18 @@ impl Chart {
         let (base, end) = (height - bottom, width - right);
         for (value, label) in x.ticks() {
             if let Some(p) = x.place(value) {
-                let _ = write!(
+                let _ = writeln!(
                     out,
-                    "<path d=\"M{p:.1} {top}V{base}\" stroke=\"#e4e4e4\"/><text x=\"{p:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>\n",
+                    "<path d=\"M{p:.1} {top}V{base}\" stroke=\"#e4e4e4\"/><text x=\"{p:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>",
                     base + 16.0
                 );
             }
         }
         for (value, label) in y.ticks() {
             if let Some(p) = y.place(value) {
-                let _ = write!(
+                let _ = writeln!(
                     out,
-                    "<path d=\"M{left} {p:.1}H{end}\" stroke=\"#e4e4e4\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>\n",
+                    "<path d=\"M{left} {p:.1}H{end}\" stroke=\"#e4e4e4\"/><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
                     left - 6.0,
                     p + 4.0
                 );
@@ -291,9 +291,9 @@ impl Chart {
             }
         }
         let [lx, ly] = best;
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<rect x=\"{lx:.1}\" y=\"{ly:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbb\"/>\n"
+            "<rect x=\"{lx:.1}\" y=\"{ly:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"white\" fill-opacity=\"0.85\" stroke=\"#bbb\"/>"
         );
         for (k, series) in named.iter().enumerate() {
             let row = ly + 16.0 + 17.0 * k as f64;
@@ -316,9 +316,9 @@ impl Chart {
                     dashes(style)
                 ),
             };
-            let _ = write!(
+            let _ = writeln!(
                 out,
-                "{mark}<text x=\"{:.1}\" y=\"{row:.1}\">{}</text>\n",
+                "{mark}<text x=\"{:.1}\" y=\"{row:.1}\">{}</text>",
                 lx + 33.0,
                 escaped(&series.label)
             );
@@ -353,9 +353,9 @@ fn draw(out: &mut String, series: &Series, x: &Axis, y: &Axis) {
                 None => pen = 'M',
             }
         }
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>\n",
+            "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>",
             dashes(series.style)
         );
     }
@@ -462,9 +462,9 @@ impl Field {
             .chain([(walls, "#888888", wall_diameter)])
         {
             if !path.is_empty() {
-                let _ = write!(
+                let _ = writeln!(
                     out,
-                    "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{diameter:.2}\" stroke-linecap=\"round\" fill=\"none\"/>\n"
+                    "<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"{diameter:.2}\" stroke-linecap=\"round\" fill=\"none\"/>"
                 );
             }
         }

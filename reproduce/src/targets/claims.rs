@@ -97,8 +97,12 @@ pub fn kepler(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         series: vec![svg::line(
             "",
             1,
-            rows.iter()
-                .map(|row| [row.time_s / 6.283_185_307, row.total / rows[0].total - 1.0]),
+            rows.iter().map(|row| {
+                [
+                    row.time_s / std::f64::consts::TAU,
+                    row.total / rows[0].total - 1.0,
+                ]
+            }),
         )],
         ..Chart::default()
     };

@@ -188,6 +188,9 @@ pub fn fig3(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     Ok(section)
 }
 
+/// Name and title of a figure, and what it shows.
+type Shown = (&'static str, &'static str, fn(&Row) -> f64);
+
 pub fn fig5(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let past = dam_break(lab)?;
     let mut section = Section::new(
@@ -203,7 +206,7 @@ pub fn fig5(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         return Ok(section);
     };
     budget(&past, lab.quick(), &mut section);
-    let energies: [(&str, &str, fn(&Row) -> f64); 5] = [
+    let energies: [Shown; 5] = [
         ("fig8", "total energy", |row| row.total),
         ("fig9", "kinetic energy", |row| row.kinetic),
         ("fig10", "gravitational energy", |row| row.gravitational),
