@@ -14,6 +14,10 @@ use loschmidt_core::{
     Arithmetic, Diagnostics, Digest, Executor, Fault, Forces, Model, Parameters, Progress,
     Reversibility, Serial,
 };
+use rayon::prelude::*;
+
+/// Fewest particles of a frame worth a thread of their own.
+const PART: usize = 4096;
 
 pub(crate) struct Engine<A: Arithmetic, M, const D: usize> {
     model: M,
@@ -244,14 +248,20 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
         let (lq, sq) = (p.scale.length_quantum(), p.scale.speed_quantum());
         let density_quantum = p.scale.density_quantum();
         let state = &system.state;
+        // Pictures are taken while a run goes on, many a second: every thread takes its part.
         let density: Vec<f64> = places
-            .iter()
+            .par_iter()
+            .with_min_len(PART)
             .map(|&i| system.scratch.density[i].quanta::<f64>() * density_quantum)
             .collect();
         let stiffness = p.sound_speed * p.sound_speed * p.reference_density;
         let pressure = |rho: &f64| {
             let equation: StateEquation = p.state_equation;
             stiffness * equation.pressure(rho / p.reference_density)
+        };
+        let of = |value: &(dyn Fn(usize) -> [f64; 3] + Sync)| -> Vec<[f64; 3]> {
+            let places = places.par_iter().with_min_len(PART);
+            places.map(|&i| value(i)).collect()
         };
         Ok(Frame {
             dimension: D,
@@ -261,9 +271,13 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
             way_back: false,
             particle_mass: p.mass,
             id: (0..state.len() as u64).collect(),
-            position: places.iter().map(|&i| si(&state.position[i], lq)).collect(),
-            velocity: places.iter().map(|&i| si(&state.velocity[i], sq)).collect(),
-            pressure: density.iter().map(pressure).collect(),
+            position: of(&|i| si(&state.position[i], lq)),
+            velocity: of(&|i| si(&state.velocity[i], sq)),
+            pressure: density
+                .par_iter()
+                .with_min_len(PART)
+                .map(pressure)
+                .collect(),
             density,
             wall_position: system.walls.position.iter().map(|x| si(x, lq)).collect(),
         })

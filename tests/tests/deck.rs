@@ -5,7 +5,7 @@ use loschmidt_runner::deck::{Arrival, Command, Opening, Report, Status};
 use loschmidt_runner::output::{RunDirectory, Snapshot};
 use loschmidt_runner::player::PlayerError;
 use loschmidt_runner::{ArithmeticKind, Arrow, Deck, Options};
-use loschmidt_tests::small;
+use loschmidt_tests::program;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
@@ -79,7 +79,7 @@ impl Watched {
 
 /// The digest of the plain player after so many steps.
 fn plain(steps: u64) -> Digest {
-    let mut player = small::player(small::scene("dam-break", &SET), Options::default());
+    let mut player = program::player(program::scene("dam-break", &SET), Options::default());
     player.advance(steps).unwrap_or_else(|e| panic!("{e}"));
     player.digest()
 }
@@ -147,7 +147,7 @@ fn time_never_turns_by_itself_and_stops_at_the_start() {
 #[test]
 fn the_pace_is_that_of_simulated_time_and_not_of_the_machine() {
     // 200 steps a second, far fewer than any machine can take of 200 particles.
-    let scene = small::scene("dam-break", &SET);
+    let scene = program::scene("dam-break", &SET);
     let pace = 200.0 * scene.time_step();
     let watched = Watched::open("dam-break", &SET, pace);
     let after = |position: i64| {

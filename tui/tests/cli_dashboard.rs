@@ -105,6 +105,15 @@ fn a_signal_gives_the_terminal_back_and_keeps_the_state() {
 }
 
 #[test]
+fn a_terminal_that_goes_away_ends_the_program_and_the_state_is_kept() {
+    let place = Place::new();
+    let terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (100, 30));
+    terminal.wait_for("step 3");
+    assert_eq!(terminal.close(), 130);
+    assert_eq!(place.manifest("runs/dam-break-1")["status"], "watched");
+}
+
+#[test]
 fn the_bare_program_opens_the_dashboard_on_a_terminal() {
     let place = Place::new();
     let mut terminal = start(place.path(), &[], &[], (100, 30));

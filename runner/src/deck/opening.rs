@@ -71,6 +71,13 @@ impl Opening {
     /// # Errors
     /// [`OpeningError`].
     pub fn of(name: &str, set: &[String], options: Options) -> Result<Self, OpeningError> {
+        let opening = Self::read(name, set, options)?;
+        // Before anything is given up for it.
+        setup::check_memory(&opening.scene).map_err(RunError::from)?;
+        Ok(opening)
+    }
+
+    fn read(name: &str, set: &[String], options: Options) -> Result<Self, OpeningError> {
         let source = scene::resolve(name)?;
         if let Source::Path(path) = &source
             && path.is_dir()
@@ -129,7 +136,6 @@ impl Opening {
 
     /// The player, where the run was left, and its series.
     pub(super) fn player(self) -> Result<(Player, Option<Box<Recorded>>), RunError> {
-        setup::check_memory(&self.scene)?;
         let initial = self.scene.initial_state()?;
         // Home is in the arithmetic that it was saved in; the latest state may be in the other.
         let at_home = self

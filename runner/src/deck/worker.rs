@@ -1,6 +1,5 @@
 //! The thread of a deck.
 
-use super::Wishes;
 use super::beside::Companion;
 use super::clock::{Clock, suggested_pace};
 use super::keep::Keeper;
@@ -10,6 +9,7 @@ use super::messages::{
 };
 use super::opening::{Opening, Recorded};
 use super::waypoints::Waypoints;
+use super::{FRAMES, Wishes};
 use crate::player::{Arrow, Player};
 use crate::run::{Plan, Row, RunError};
 use crate::saved::{ArithmeticKind, SavedState};
@@ -43,9 +43,22 @@ pub(super) fn work(
     };
     // A defect must not leave a face that waits for ever.
     let played = catch_unwind(AssertUnwindSafe(move || {
-        match Worker::new(opening, wishes, ready, Box::new(say)) {
-            Ok(mut worker) => worker.run(&inbox),
-            Err((error, say)) => say(Report::Failed(error.to_string())),
+        let (pace, arithmetic) = (opening.pace, opening.options.arithmetic);
+        let beside = wishes.beside && opening.recorded.is_none();
+        let companion = match beside.then(|| Companion::new(&opening)).transpose() {
+            Ok(companion) => companion,
+            Err(error) => return say(Report::Failed(error.to_string())),
+        };
+        let (player, recorded) = match opening.player() {
+            Ok(opened) => opened,
+            Err(error) => return say(Report::Failed(error.to_string())),
+        };
+        let mut worker = Worker::new(player, pace, ready, Box::new(say));
+        worker.companion = companion;
+        worker.frames = wishes.frames.max(1);
+        match worker.begin(recorded, arithmetic) {
+            Ok(()) => worker.run(&inbox),
+            Err(error) => (worker.tell)(Report::Failed(error.to_string())),
         }
     }));
     if let Err(panic) = played {
@@ -70,6 +83,8 @@ struct Worker {
     pace: f64,
     playing: bool,
     seek: Option<Seek>,
+    /// Steps to the turnaround.
+    span: i64,
     /// Steps between rows.
     every: i64,
     /// Steps in a piece.
@@ -90,34 +105,18 @@ struct Worker {
 }
 
 impl Worker {
-    fn new(
-        opening: Opening,
-        wishes: Wishes,
-        ready: Arc<AtomicBool>,
-        tell: Tell,
-    ) -> Result<Self, (RunError, Tell)> {
-        let beside = wishes.beside && opening.recorded.is_none();
-        let companion = match beside.then(|| Companion::new(&opening)).transpose() {
-            Ok(companion) => companion,
-            Err(error) => return Err((error, tell)),
-        };
-        let pace = opening.pace;
-        let wanted = opening.options.arithmetic;
-        let (player, recorded) = match opening.player() {
-            Ok(opened) => opened,
-            Err(error) => return Err((error, tell)),
-        };
+    fn new(player: Player, pace: Option<f64>, ready: Arc<AtomicBool>, tell: Tell) -> Self {
         let plan = Plan::of(player.scene());
         let dt = player.scene().time_step();
         let pace = pace.unwrap_or_else(|| suggested_pace(plan.out as f64 * dt));
         let particles = player.home().id.len();
         let every = plan.row_every as i64;
-        let mut worker = Self {
+        Self {
             clock: Clock::new(pace / dt, Instant::now()),
             good: (player.home().clone(), 0, Arrow::Forward),
             player,
-            companion,
-            frames: wishes.frames.max(1),
+            companion: None,
+            frames: FRAMES,
             tell,
             ready,
             pace,
@@ -132,10 +131,7 @@ impl Worker {
             keeper: Keeper::default(),
             pictured: None,
             changed: true,
-        };
-        match worker.begin(recorded, wanted, plan.out as i64) {
-            Ok(()) => Ok(worker),
-            Err(error) => Err((error, worker.tell)),
+            span: plan.out as i64,
         }
     }
 
@@ -144,7 +140,6 @@ impl Worker {
         &mut self,
         recorded: Option<Box<Recorded>>,
         arithmetic: ArithmeticKind,
-        span: i64,
     ) -> Result<(), RunError> {
         let fault = |fault: Fault| RunError::Build(fault.into());
         let home = self.player.frame().map_err(fault)?;
@@ -172,7 +167,7 @@ impl Worker {
             digest: self.player.home_digest(),
             reversibility,
             length_quantum: self.player.home().scale.length_quantum(),
-            span,
+            span: self.span,
             row_every: self.every,
             rows,
             status: self.status(),
@@ -417,7 +412,10 @@ impl Worker {
         match command {
             Command::Play(play) => self.play(play),
             Command::Turn => self.turn(),
-            Command::StepBy(steps) => self.seek_to(self.player.position() + steps),
+            Command::StepBy(steps) => {
+                let under_way = self.seek.map(|seek| seek.target);
+                self.seek_to(under_way.unwrap_or(self.player.position()) + steps);
+            }
             Command::Seek(target) => self.seek_to(target),
             Command::Cancel => {
                 if self.seek.take().is_some() {
@@ -486,14 +484,14 @@ impl Worker {
 
     fn seek_to(&mut self, target: i64) {
         let position = self.player.position();
-        if target < 0 && position == 0 {
+        if target < 0 && position == 0 && self.seek.is_none() {
             return (self.tell)(Report::Refused(Refusal::Start));
         }
         let target = target.max(0);
-        if target < position || self.player.arrow() == Arrow::Backward {
-            if let Err(why) = self.player.can_seek() {
-                return (self.tell)(Report::Refused(why.into()));
-            }
+        if (target < position || self.player.arrow() == Arrow::Backward)
+            && let Err(why) = self.player.can_seek()
+        {
+            return (self.tell)(Report::Refused(why.into()));
         }
         self.playing = false;
         self.clock.restart(Instant::now());

@@ -1,7 +1,7 @@
 //! The fast executor: the core's sums in vector instructions, each pair once.
 //!
-//! `layout` sorts the state into strips so that neighbours are contiguous and lists who can meet
-//! whom, `sweep` walks the pairs with the model's own pair terms written for rows of four, `chain`
+//! `layout` keeps the state sorted into strips, so that neighbours are contiguous, and lists of who
+//! can meet whom (`making`, `meets`), `sweep` walks the pairs with the model's own pair terms written for rows of four, `chain`
 //! does two sums in one go, `walls` keeps the few particles that are near walls, [`Backend`] chooses
 //! the instructions at run time. Parts of the strips go to threads, each with sums of its own, which
 //! are added afterwards.
@@ -15,6 +15,7 @@ mod backend;
 mod chain;
 mod lanes;
 mod layout;
+mod making;
 mod meets;
 mod sweep;
 mod walls;

@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How often the thread that waits for keys looks whether it is still needed.
 const LOOK_UP: Duration = Duration::from_millis(50);
@@ -33,7 +33,8 @@ pub fn is_terminal() -> bool {
 
 /// The terminal in our hands.
 pub struct Terminal {
-    screen: Screen,
+    /// `None` once the terminal is given back.
+    screen: Option<Screen>,
     gone: Arc<AtomicBool>,
     listener: Option<JoinHandle<()>>,
 }
@@ -63,7 +64,7 @@ impl Terminal {
         let screen = entered.and_then(|()| Screen::new(CrosstermBackend::new(writer)));
         match screen {
             Ok(screen) => Ok(Self {
-                screen,
+                screen: Some(screen),
                 gone: Arc::new(AtomicBool::new(false)),
                 listener: None,
             }),
@@ -76,8 +77,7 @@ impl Terminal {
 
     /// Columns and rows.
     pub fn size(&self) -> std::io::Result<(u16, u16)> {
-        let size = self.screen.size()?;
-        Ok((size.width, size.height))
+        ratatui::crossterm::terminal::size()
     }
 
     /// Sends what the keyboard, the mouse and the window's frame say, from a thread of its own.
@@ -105,19 +105,32 @@ impl Terminal {
 
     /// Draws the state, in one piece where the terminal can.
     pub fn draw(&mut self, state: &State) -> std::io::Result<()> {
-        queue!(self.screen.backend_mut(), BeginSynchronizedUpdate)?;
-        self.screen
-            .draw(|frame| frame.render_widget(state, frame.area()))?;
-        queue!(self.screen.backend_mut(), EndSynchronizedUpdate)?;
-        Write::flush(self.screen.backend_mut())
+        let Some(screen) = &mut self.screen else {
+            return Ok(());
+        };
+        queue!(screen.backend_mut(), BeginSynchronizedUpdate)?;
+        screen.draw(|frame| frame.render_widget(state, frame.area()))?;
+        queue!(screen.backend_mut(), EndSynchronizedUpdate)?;
+        Write::flush(screen.backend_mut())
     }
 }
 
 impl Drop for Terminal {
     fn drop(&mut self) {
         self.gone.store(true, Ordering::Relaxed);
+        // Where the terminal has gone, reading from it may never end: the thread is left to its fate
+        // then, which is the end of the program.
+        let end = Instant::now() + 6 * LOOK_UP;
         if let Some(listener) = self.listener.take() {
-            let _ = listener.join();
+            while !listener.is_finished() && Instant::now() < end {
+                std::thread::sleep(Duration::from_millis(2));
+            }
+        }
+        if let Some(mut screen) = self.screen.take()
+            && screen.show_cursor().is_err()
+        {
+            // It would complain to a standard error that has gone with the terminal, and panic.
+            std::mem::forget(screen);
         }
         restore();
     }

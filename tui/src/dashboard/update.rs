@@ -308,15 +308,27 @@ fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
         }
         Action::StepBack => vec![Effect::Deck(Command::StepBy(-1))],
         Action::StepOn => vec![Effect::Deck(Command::StepBy(1))],
-        Action::Slower => vec![Effect::Deck(Command::Pace(slower(status.pace)))],
-        Action::Faster => vec![Effect::Deck(Command::Pace(faster(status.pace)))],
+        Action::Slower | Action::Faster => {
+            let change = if action == Action::Slower {
+                slower
+            } else {
+                faster
+            };
+            // Shown at once, so that a key that is held adds up.
+            stage.status.pace = change(stage.status.pace);
+            vec![Effect::Deck(Command::Pace(stage.status.pace))]
+        }
         Action::ToStart => seek(0),
         Action::ToFarthest => seek(status.farthest),
         Action::ScrubBack | Action::ScrubOn => {
-            let from = status.seek.map_or(status.position, |seek| seek.target);
+            // A key that is held adds up, before the simulation has heard of the first.
+            let under_way = stage.wanted.or(status.seek.map(|seek| seek.target));
+            let from = under_way.unwrap_or(status.position);
             let by = (stage.span() / 20).max(1);
             let sign = if action == Action::ScrubBack { -1 } else { 1 };
-            seek((from + sign * by).max(0))
+            let target = (from + sign * by).max(0);
+            stage.wanted = Some(target);
+            seek(target)
         }
         Action::Cancel if status.seek.is_some() => vec![Effect::Deck(Command::Cancel)],
         Action::Cancel => {

@@ -4,6 +4,7 @@ use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system}
 use std::io::{Read, Write};
 use std::num::NonZeroU16;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -14,6 +15,8 @@ pub struct Terminal {
     child: Box<dyn Child + Send + Sync>,
     parser: Arc<Mutex<vt100::Parser>>,
     before: String,
+    /// Nobody looks at the screen any more.
+    closed: Arc<AtomicBool>,
 }
 
 /// The program with these arguments, on a terminal of so many columns and rows.
@@ -46,10 +49,15 @@ pub fn start(
     let parser = Arc::new(Mutex::new(vt100::Parser::new(cells(rows), cells(cols), 0)));
     let mut output = pair.master.try_clone_reader().expect("its output");
     let shown = Arc::clone(&parser);
+    let closed = Arc::new(AtomicBool::new(false));
+    let gone = Arc::clone(&closed);
     std::thread::spawn(move || {
         let mut bytes = [0; 1 << 16];
         while let Ok(n @ 1..) = output.read(&mut bytes) {
             shown.lock().expect("a parser").process(&bytes[..n]);
+            if gone.load(Ordering::Relaxed) {
+                return;
+            }
         }
     });
     Terminal {
@@ -58,6 +66,7 @@ pub fn start(
         child,
         parser,
         before,
+        closed,
     }
 }
 
@@ -116,6 +125,25 @@ impl Terminal {
                 cell.is_some_and(|c| c.fgcolor() != plain || c.bgcolor() != plain)
             })
         })
+    }
+
+    /// Takes the terminal away, as a window that is closed does; the exit code, in a minute at most.
+    pub fn close(self) -> u32 {
+        let mut child = self.child;
+        self.closed.store(true, Ordering::Relaxed);
+        drop(self.keys);
+        drop(self.master);
+        let began = Instant::now();
+        loop {
+            if let Some(status) = child.try_wait().expect("a status") {
+                return status.exit_code();
+            }
+            if began.elapsed() > Duration::from_secs(60) {
+                child.kill().expect("an end");
+                panic!("the program outlives its terminal");
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
     }
 
     pub fn signal(&self, name: &str) {

@@ -41,6 +41,18 @@ fn an_arrow_key_is_one_step_in_either_direction() {
 }
 
 #[test]
+fn a_key_that_is_held_adds_up() {
+    let mut bench = drop();
+    let pace = |bench: &Bench| bench.state.stage.as_ref().expect("a scene").status.pace;
+    let before = pace(&bench);
+    // Six paces to a decade, and nothing heard of in between.
+    for _ in 0..12 {
+        bench.key(Key::Char(']'));
+    }
+    assert!((pace(&bench) / before / 100.0 - 1.0).abs() < 1e-9);
+}
+
+#[test]
 fn before_the_start_there_is_nothing() {
     let mut bench = drop();
     bench.seek(0);

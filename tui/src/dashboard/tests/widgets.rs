@@ -131,6 +131,7 @@ fn plots(state: &State) -> Vec<String> {
 #[test]
 fn the_way_back_is_drawn_dot_by_dot_on_the_way_out() {
     let mut bench = dam();
+    bench.seek(1800);
     bench.key(Key::Home);
     bench.shot_at(0);
     let both = plots(&bench.state);
@@ -153,9 +154,10 @@ fn the_way_back_is_drawn_dot_by_dot_on_the_way_out() {
 #[test]
 fn the_help_names_every_key_of_the_table() {
     let mut bench = dam();
-    bench.key(Key::Char('?'));
     for size in [(200, 60), (100, 30), (60, 20)] {
         bench.state.size = size;
+        bench.key(Key::Escape);
+        bench.key(Key::Char('?'));
         let mut shown = text(&bench.screen());
         // Where there is no room for all, the arrow keys show the others.
         bench.key(Key::Down);

@@ -1,7 +1,7 @@
 //! The start was reached: is everything as it was?
 
 use super::ink::Ink;
-use super::numbers::{count, error};
+use super::numbers::{count, short};
 use super::overlays::{Line, sheet};
 use loschmidt_runner::ArithmeticKind;
 use loschmidt_runner::deck::{Arrival, Meddling, Perturbation};
@@ -23,7 +23,9 @@ pub fn render(arrival: &Arrival, field: Rect, whole: Rect, buf: &mut Buffer, ink
         ink.alarm_colour()
     };
     let fits = field.width >= 66 && usize::from(field.height) > lines.len() + 2;
-    let area = if fits { field } else { whole };
+    // In the upper part of the field, where it leaves the fluid in sight.
+    let upper = Rect::new(field.x, field.y + 1, field.width, lines.len() as u16 + 2);
+    let area = if fits { upper } else { whole };
     sheet("", &lines, Some(colour), area, buf, ink);
 }
 
@@ -69,7 +71,7 @@ fn missed(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
         vec![
             (format!("{} particles", count(c.astray as u64)), ink.bold()),
             (" astray, the farthest ".to_owned(), ink.text()),
-            (format!("{} m", error(c.error)), ink.bold()),
+            (format!("{} m", short(c.error)), ink.bold()),
             (" from home".to_owned(), ink.text()),
         ],
     ];

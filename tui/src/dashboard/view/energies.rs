@@ -11,6 +11,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
+/// An energy: its colour, and its value in J.
+type Part = (Rgb, fn(&Row) -> f64);
+
 /// Draws the energies.
 pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     if area.height < 3 {
@@ -45,8 +48,8 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
             .0;
     }
     let _ = x;
-    type Part<'a> = (&'a str, &'a str, Rgb, fn(&Row) -> f64);
-    let parts: [Part<'_>; 5] = [
+    type Named<'a> = (&'a str, &'a str, Rgb, fn(&Row) -> f64);
+    let parts: [Named<'_>; 5] = [
         ("kinetic", "kin", theme.forward, |r| r.kinetic),
         ("gravitational", "grav", theme.second, |r| r.gravitational),
         ("internal", "int", theme.third, |r| r.internal),
@@ -116,14 +119,7 @@ fn flow(groups: &[Vec<Piece>], area: Rect, buf: &mut Buffer) -> u16 {
     (row + 1).min(most)
 }
 
-fn draw(
-    stage: &Stage,
-    scale: f64,
-    parts: &[(Rgb, fn(&Row) -> f64); 5],
-    area: Rect,
-    buf: &mut Buffer,
-    ink: &Ink,
-) {
+fn draw(stage: &Stage, scale: f64, parts: &[Part; 5], area: Rect, buf: &mut Buffer, ink: &Ink) {
     let rows = || stage.track.out().iter().chain(stage.track.back());
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
     for row in rows() {

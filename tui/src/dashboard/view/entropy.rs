@@ -69,7 +69,7 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
         m.max(row.entropy)
             .max(row.equilibrium_entropy_of_energy.unwrap_or(row.entropy))
     });
-    if !(high - low > 0.5) {
+    if high - low < 0.5 {
         (low, high) = (low - 0.5, low + 0.5);
     }
     let room = 0.05 * (high - low);
