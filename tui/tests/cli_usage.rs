@@ -5,11 +5,13 @@ use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
 
-const CATALOGUE: [&str; 4] = [
+const CATALOGUE: [&str; 6] = [
     "dam-break",
     "dam-break-3d",
     "colliding-drops",
     "rotating-drop",
+    "gresho-vortex",
+    "kepler-ring",
 ];
 
 /// Makes a few dozen steps of a scene of the catalogue.
