@@ -9,7 +9,7 @@
 //! 2. [`lab`]: runs scenes in the directory of the report. What is finished is not run again, what
 //!    was interrupted goes on.
 //! 3. [`section`]: what a target found. [`svg`]: its figures. [`report`]: the two pages.
-//! 4. [`reference`]: published curves, with their sources.
+//! 4. [`mod@reference`]: published curves, with their sources.
 
 #![forbid(unsafe_code)]
 
