@@ -32,7 +32,8 @@
 use crate::number::{Arithmetic, Quantity, Scale};
 use crate::state::System;
 use core::fmt;
-use siphasher::sip128::SipHasher24;
+use core::hash::Hasher;
+use siphasher::sip128::{Hasher128, SipHasher24};
 
 /// A fingerprint of a state.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -53,7 +54,25 @@ impl fmt::Debug for Digest {
 /// SipHash-2-4-128 with a zero key, over bytes.
 #[must_use]
 pub fn hash(bytes: &[u8]) -> [u8; 16] {
-    SipHasher24::new().hash(bytes).as_bytes()
+    let mut hashing = Hashing::default();
+    hashing.add(bytes);
+    hashing.finish()
+}
+
+/// [`hash`] of bytes that come one after another.
+#[derive(Clone, Debug, Default)]
+pub struct Hashing(SipHasher24);
+
+impl Hashing {
+    /// Goes on with these bytes.
+    pub fn add(&mut self, bytes: &[u8]) {
+        self.0.write(bytes);
+    }
+    /// The hash of all.
+    #[must_use]
+    pub fn finish(&self) -> [u8; 16] {
+        self.0.finish128().as_bytes()
+    }
 }
 
 /// Most words in one particle's record: kind, id, position, velocity, density in 3D.

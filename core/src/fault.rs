@@ -66,10 +66,20 @@ impl Fault {
     pub fn at_step(self, step: u64) -> Self {
         Self { step, ..self }
     }
-    /// Of two faults in one pass, the one that is reported: independent of who finds it first.
+    /// The same fault in this step, unless it names one.
+    #[must_use]
+    pub(crate) fn unless_known(self, step: u64) -> Self {
+        if self.step == 0 {
+            self.at_step(step)
+        } else {
+            self
+        }
+    }
+    /// Of two faults in one pass, the one that is reported, of the earlier step or of the smaller id:
+    /// independent of who finds it first.
     #[must_use]
     pub fn first(self, other: Self) -> Self {
-        if other.particle < self.particle {
+        if (other.step, other.particle) < (self.step, self.particle) {
             other
         } else {
             self

@@ -256,7 +256,7 @@ where
     /// As [`Model::step`].
     pub fn advance<E: Executor>(&mut self, steps: u64, exec: &E) -> Result<(), Fault> {
         let (model, mut system) = self.parts();
-        (0..steps).try_for_each(|_| model.step(&mut system, exec))
+        model.steps(&mut system, exec, steps)
     }
 
     /// Turns time round.

@@ -204,6 +204,11 @@ impl Progress {
             ..Self::default()
         }
     }
+    /// True where the scratch holds the densities of the present positions.
+    #[must_use]
+    pub fn density_is_current(&self) -> bool {
+        self.density_current
+    }
     /// Positions (or densities) were changed from outside: everything is computed anew.
     pub fn invalidate(&mut self) {
         *self = Self {

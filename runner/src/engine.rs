@@ -24,6 +24,8 @@ pub(crate) struct Engine<A: Arithmetic, M, const D: usize> {
     model: M,
     storage: Storage<A, D>,
     executor: AnyExecutor,
+    /// The executor has given its memory back, and what the scratch holds fits nothing any more.
+    released: bool,
 }
 
 impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
@@ -68,6 +70,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
             model: M::new(forces),
             storage,
             executor,
+            released: false,
         };
         engine.with_executor(Initialise)?;
         Ok(engine)
@@ -81,6 +84,13 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
             AnyExecutor::Serial(exec) => task.run(model, &mut system, exec),
             AnyExecutor::Rayon(exec) => exec.install(|| task.run(model, &mut system, exec)),
             AnyExecutor::Fast(exec) => exec.install(|| task.run(model, &mut system, &**exec)),
+        }
+    }
+
+    /// To be called before anything that looks for neighbours.
+    fn wake(&mut self) {
+        if std::mem::take(&mut self.released) {
+            self.storage.progress.invalidate();
         }
     }
 
@@ -130,7 +140,7 @@ macro_rules! task {
 
 task!(Initialise, Result<(), Fault>, |model, system, exec| model.initialise(system, exec));
 task!(Advance(steps: u64), Result<(), Fault>, |model, system, exec, steps| {
-    (0..steps).try_for_each(|_| model.step(system, exec))
+    model.steps(system, exec, steps)
 });
 task!(Measure, Result<Diagnostics, Fault>, |model, system, exec| {
     Diagnostics::measure(model, system, exec)
@@ -146,6 +156,7 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
     }
 
     fn advance(&mut self, steps: u64) -> Result<(), Fault> {
+        self.wake();
         self.with_executor(Advance(steps))
     }
 
@@ -158,6 +169,7 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
     }
 
     fn measure(&mut self) -> Result<Diagnostics, Fault> {
+        self.wake();
         self.with_executor(Measure)
     }
 
@@ -241,8 +253,18 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
         Ok(())
     }
 
+    fn release(&mut self) {
+        if let AnyExecutor::Fast(fast) = &self.executor {
+            fast.release();
+            self.released = true;
+        }
+    }
+
     fn frame(&mut self) -> Result<Frame, Fault> {
-        self.with_executor(UpdateDensity)?;
+        if !self.storage.progress.density_is_current() {
+            self.wake();
+            self.with_executor(UpdateDensity)?;
+        }
         let places = self.places();
         let p = *self.forces().parameters();
         let system = self.storage.system();

@@ -353,6 +353,12 @@ impl Player {
         }
     }
 
+    /// Gives back memory that only steps need, before something large is made of the state. The next
+    /// step costs two more.
+    pub fn release(&mut self) {
+        self.simulation.release();
+    }
+
     /// A picture of the present state.
     ///
     /// # Errors

@@ -127,6 +127,9 @@ pub trait Simulation: Send {
     /// # Errors
     /// As a step.
     fn frame(&mut self) -> Result<Frame, Fault>;
+    /// Gives back memory that only steps need. The next step makes it anew, at the cost of a step or two;
+    /// no bit depends on it.
+    fn release(&mut self);
     /// Flips the lowest bit of the first coordinate of the particle with this id.
     fn flip_last_bit(&mut self, id: u64);
 }

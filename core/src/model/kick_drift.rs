@@ -365,12 +365,14 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
         exec.for_each(position, |i, x| drifted(x, &velocity[i], factor, id[i]))
     }
 
-    /// A kick and the drift after it, in one go through the particles.
+    /// A kick and the drift after it, in one go through the particles. With `owed`, the same kick is
+    /// added twice: the step that has just been counted still owes it.
     pub(super) fn kick_and_drift<E: Executor>(
         &self,
         system: &mut System<'_, A, D>,
         exec: &E,
         kick: f64,
+        owed: bool,
         drift: f64,
     ) -> Result<(), Fault> {
         self.update_impulses(system, exec, kick)?;
@@ -384,9 +386,14 @@ impl<A: Arithmetic, const D: usize> Forces<A, D> {
             ..
         } = &mut system.state;
         let (id, impulse) = (&**id, &*system.scratch.impulse);
+        let counted = system.progress.step;
         exec.for_both(position, velocity, |i, x, v| {
-            kicked(v, &impulse[i], id[i])?;
-            drifted(x, v, factor, id[i])
+            if owed {
+                kicked(v, &impulse[i], id[i]).map_err(|fault| fault.at_step(counted))?;
+            }
+            kicked(v, &impulse[i], id[i])
+                .and_then(|()| drifted(x, v, factor, id[i]))
+                .map_err(|fault| fault.at_step(counted + 1))
         })
     }
 }

@@ -86,4 +86,17 @@ pub trait Model<A: Arithmetic, const D: usize>: Sync + Sized {
     /// The particle and the step that left the number range or lost its density. The state is
     /// then somewhere within the step and of no use.
     fn step<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault>;
+
+    /// So many steps: the same bits as one after another, and the same fault.
+    ///
+    /// # Errors
+    /// As a step.
+    fn steps<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        steps: u64,
+    ) -> Result<(), Fault> {
+        (0..steps).try_for_each(|_| self.step(system, exec))
+    }
 }

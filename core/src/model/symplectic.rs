@@ -19,7 +19,52 @@ pub struct Symplectic<A: Arithmetic, const D: usize> {
     forces: Forces<A, D>,
 }
 
+/// Which kicks of a step are one with those of its neighbours.
+#[derive(Clone, Copy)]
+struct Joined {
+    /// The first adds the last one of the step before too.
+    opening: bool,
+    /// The last is left to the step after.
+    closing: bool,
+}
+
 impl<A: Arithmetic, const D: usize> Symplectic<A, D> {
+    fn take<E: Executor>(
+        &self,
+        mut stages: &[Stage],
+        joined: Joined,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        let mut owed = joined.opening;
+        loop {
+            stages = match *stages {
+                [Stage::Kick(kick), Stage::Drift(drift), ref rest @ ..] => {
+                    self.update_for_kick(system, exec, kick)?;
+                    self.forces
+                        .kick_and_drift(system, exec, kick, owed, drift)?;
+                    owed = false;
+                    rest
+                }
+                [Stage::Kick(kick)] if joined.closing => {
+                    self.update_for_kick(system, exec, kick)?;
+                    break;
+                }
+                [Stage::Kick(kick), ref rest @ ..] => {
+                    self.update_for_kick(system, exec, kick)?;
+                    self.forces.kick(system, exec, kick)?;
+                    rest
+                }
+                [Stage::Drift(drift), ref rest @ ..] => {
+                    self.forces.drift(system, exec, drift)?;
+                    rest
+                }
+                [] => break,
+            };
+        }
+        Ok(())
+    }
+
     /// Densities for a kick of `c` time steps, and where it can be had in one go its impulses.
     fn update_for_kick<E: Executor>(
         &self,
@@ -142,35 +187,36 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
     }
 
     fn step<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
-        let step = system.progress.step + 1;
-        if !system.progress.initialised {
+        self.steps(system, exec, 1)
+    }
+
+    /// Where a step closes with the kick that the next one opens with, both are added in one go: the
+    /// impulses are the same.
+    fn steps<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        steps: u64,
+    ) -> Result<(), Fault> {
+        if steps > 0 && !system.progress.initialised {
+            let step = system.progress.step + 1;
             return Err(Fault::new(FaultKind::NotInitialised, 0).at_step(step));
         }
-        let mut stages = || {
-            let mut stages = self.forces.parameters().integrator.stages;
-            loop {
-                stages = match *stages {
-                    [Stage::Kick(kick), Stage::Drift(drift), ref rest @ ..] => {
-                        self.update_for_kick(system, exec, kick)?;
-                        self.forces.kick_and_drift(system, exec, kick, drift)?;
-                        rest
-                    }
-                    [Stage::Kick(kick), ref rest @ ..] => {
-                        self.update_for_kick(system, exec, kick)?;
-                        self.forces.kick(system, exec, kick)?;
-                        rest
-                    }
-                    [Stage::Drift(drift), ref rest @ ..] => {
-                        self.forces.drift(system, exec, drift)?;
-                        rest
-                    }
-                    [] => break,
-                };
-            }
-            Ok(())
+        let stages = self.forces.parameters().integrator.stages;
+        let same = match stages {
+            [Stage::Kick(first), Stage::Drift(_), .., Stage::Kick(last)] => first == last,
+            _ => false,
         };
-        stages().map_err(|fault: Fault| fault.at_step(step))?;
-        system.progress.step = step;
+        for n in 0..steps {
+            let joined = Joined {
+                opening: same && n > 0,
+                closing: same && n + 1 < steps,
+            };
+            let step = system.progress.step + 1;
+            self.take(stages, joined, system, exec)
+                .map_err(|fault| fault.unless_known(step))?;
+            system.progress.step = step;
+        }
         Ok(())
     }
 }

@@ -14,6 +14,7 @@
 //! strips and cells: the clamping is monotone, neighbours stay neighbours. None of this can
 //! change a bit, since sums of integers do not depend on who meets whom when.
 
+use super::awake::each;
 use super::backend::{Backend, Work};
 use super::lanes::{Quad, ROW, Reals};
 use super::meets::Meets;
@@ -21,7 +22,6 @@ use super::sweep::Sums;
 use loschmidt_core::Arithmetic;
 use loschmidt_core::number::Quantity;
 use loschmidt_core::state::State;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// How many times a layout is made in the same box.
@@ -199,6 +199,11 @@ impl Layout {
         }
     }
 
+    /// Number of particles; the storage order of all that has as many is the layout's.
+    pub fn particles(&self) -> usize {
+        self.strips.last().map_or(0, |end| end.place)
+    }
+
     /// Rows of these strips.
     pub fn rows_of(&self, strips: &Range<usize>) -> Range<usize> {
         self.strips[strips.start].rows().start..self.strips[strips.end].rows().start
@@ -264,12 +269,11 @@ impl Layout {
         items: Vec<I>,
         work: impl Fn(Range<usize>, I) -> O + Sync,
     ) -> Vec<O> {
-        if items.len() == 1 {
-            let parts = self.parts.iter().zip(items);
+        let parts = self.parts.iter().zip(items);
+        if self.parts.len() == 1 {
             return parts.map(|(part, item)| work(part.clone(), item)).collect();
         }
-        let parts = self.parts.par_iter().zip(items);
-        parts.map(|(part, item)| work(part.clone(), item)).collect()
+        each(parts, |(part, item)| work(part.clone(), item))
     }
 
     /// Places of the cells from `first` to `last` of a strip.

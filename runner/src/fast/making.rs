@@ -93,7 +93,19 @@ impl Layout {
             reorder(state, &self.order);
         }
         self.number_slots(strips);
-        self.most_candidates = self.count_candidates::<D>(most as usize);
+        self.most_candidates = if self.can_be_listed::<D>() {
+            self.count_candidates::<D>(most as usize)
+        } else {
+            usize::MAX
+        };
+    }
+
+    /// True where a [`Meeting`] can name whoever meets.
+    fn can_be_listed<const D: usize>(&self) -> bool {
+        (0..self.strips.len() - 1).all(|s| {
+            let rows = self.rows_reached::<D>(&(s..s + 1));
+            Meeting::can_name::<D>(self.strips[s].len, rows.len())
+        })
     }
 
     fn number_slots(&mut self, strips: usize) {
@@ -139,6 +151,10 @@ impl Layout {
 
     /// Lists who can meet whom.
     pub(super) fn list_meetings<const D: usize>(&mut self, crew: Crew) {
+        if self.most_candidates > MAX_NEIGHBOURS as usize {
+            // Nobody will sweep.
+            return;
+        }
         let mut meets = std::mem::take(&mut self.meets);
         meets.resize_with(self.strips.len() - 1, Meets::default);
         let mut rest = &mut meets[..];
@@ -150,14 +166,14 @@ impl Layout {
         let parts = self.parts.iter().map(split).collect();
         let layout = &*self;
         layout.for_parts(parts, |strips, meets| {
+            let mut list = Vec::new();
             for (strip, meets) in strips.zip(meets) {
-                meets.renew(|list| {
-                    crew.backend.run(Listing::<D> {
-                        layout,
-                        strip,
-                        list,
-                    })
+                let length = crew.backend.run(Listing::<D> {
+                    layout,
+                    strip,
+                    list: &mut list,
                 });
+                meets.renew::<D>(&list[..length]);
             }
         });
         self.meets = meets;
@@ -200,7 +216,7 @@ struct Listing<'a, const D: usize> {
 }
 
 impl<const D: usize> Work for Listing<'_, D> {
-    /// How many meetings of the list count.
+    /// How many meetings of the list count; what comes after them is left over.
     type Output = usize;
     #[inline(always)]
     fn run<Q: Quad>(self, simd: Q) -> usize {
@@ -235,9 +251,9 @@ impl<const D: usize> Work for Listing<'_, D> {
                 let slot = place - strip.place + strip.slot;
                 windows[0] = slot / ROW + 1..own_end;
                 if self.list.len() < length + candidates {
-                    self.list.resize(length + candidates, [0, 0]);
+                    self.list.resize(length + candidates, Meeting::default());
                 }
-                let k = (place - strip.place) as u32;
+                let k = place - strip.place;
                 let x_i = &layout.x[slot / ROW * D..][..D];
                 for window in &windows {
                     for row in window.clone() {
@@ -249,7 +265,7 @@ impl<const D: usize> Work for Listing<'_, D> {
                             r2 = simd.add(r2, simd.mul(x_ij, x_ij));
                         }
                         // Written in any case, and kept where it counts: no branch to predict.
-                        self.list[length] = [k, (row - first_row) as u32];
+                        self.list[length] = Meeting::new::<D>(k, row - first_row);
                         length += usize::from(simd.any_below(r2, within));
                     }
                 }

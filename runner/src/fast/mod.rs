@@ -11,6 +11,7 @@
 //! candidates than an integer sum is guaranteed to hold, the sum is taken by the plain traversal of
 //! the core, which decides exactly and names the particle. The same for floating-point states.
 
+mod awake;
 mod backend;
 mod chain;
 mod lanes;
@@ -62,7 +63,7 @@ struct Memory {
     walls: NearWalls,
 }
 
-/// Fewest items for which threads are woken.
+/// Fewest items worth a thread of their own.
 const ITEMS_PER_THREAD: usize = 4000;
 /// Terms of this magnitude and more, in quanta, are out of range: 2^51.
 const LIMIT: f64 = (1u64 << 51) as f64;
@@ -133,9 +134,20 @@ impl Fast {
         })
     }
 
+    /// Gives back the memory that outlives a step; it is made anew when it is needed. What the scratch
+    /// of a system holds is of no use afterwards.
+    pub fn release(&self) {
+        *self.memory() = Memory::default();
+    }
+
     /// Runs `work` on the threads.
     pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        self.rayon.install(work)
+        self.rayon.install(|| awake::together(work))
+    }
+
+    /// True for so few items that other threads are not worth their trouble.
+    fn is_little(&self, items: usize) -> bool {
+        self.crew.threads == 1 || items < 2 * ITEMS_PER_THREAD
     }
 
     fn memory(&self) -> MutexGuard<'_, Memory> {
@@ -172,6 +184,12 @@ impl Fast {
     }
 }
 
+/// The fault of the smallest id.
+fn first_fault(results: Vec<Result<(), Fault>>) -> Result<(), Fault> {
+    let faults = results.into_iter().filter_map(Result::err);
+    faults.reduce(Fault::first).map_or(Ok(()), Err)
+}
+
 /// True for the arithmetic that the sweeps are written for.
 fn is_swept<A: Arithmetic>() -> bool {
     A::EXACT && TypeId::of::<A::Real>() == TypeId::of::<f64>()
@@ -187,11 +205,22 @@ impl Executor for Fast {
         items: &mut [T],
         f: impl Fn(usize, &mut T) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault> {
-        if self.crew.threads == 1 || items.len() < 2 * ITEMS_PER_THREAD {
-            loschmidt_core::Serial.for_each(items, f)
-        } else {
-            self.rayon.for_each(items, f)
+        let memory = self.memory();
+        let layout = &memory.layout;
+        if items.len() != layout.particles() {
+            drop(memory);
+            return if self.is_little(items.len()) {
+                loschmidt_core::Serial.for_each(items, f)
+            } else {
+                self.rayon.for_each(items, f)
+            };
         }
+        // The same particles for a thread as in the sums: what it wrote is in its cache.
+        let faults = layout.for_parts(layout.split_places(items), |strips, items| {
+            let first = layout.places_of(&strips).start;
+            loschmidt_core::Serial.for_each(items, |i, item| f(first + i, item))
+        });
+        first_fault(faults)
     }
 
     fn for_both<T: Send, U: Send>(
@@ -200,11 +229,26 @@ impl Executor for Fast {
         b: &mut [U],
         f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault> {
-        if self.crew.threads == 1 || a.len() < 2 * ITEMS_PER_THREAD {
-            loschmidt_core::Serial.for_both(a, b, f)
-        } else {
-            self.rayon.for_both(a, b, f)
+        let memory = self.memory();
+        let layout = &memory.layout;
+        if a.len() != layout.particles() {
+            drop(memory);
+            return if self.is_little(a.len()) {
+                loschmidt_core::Serial.for_both(a, b, f)
+            } else {
+                self.rayon.for_both(a, b, f)
+            };
         }
+        let items = layout
+            .split_places(a)
+            .into_iter()
+            .zip(layout.split_places(b))
+            .collect();
+        let faults = layout.for_parts(items, |strips, (a, b): (&mut [T], &mut [U])| {
+            let first = layout.places_of(&strips).start;
+            loschmidt_core::Serial.for_both(a, b, |i, a, b| f(first + i, a, b))
+        });
+        first_fault(faults)
     }
 
     fn locate<A: Arithmetic, const D: usize>(

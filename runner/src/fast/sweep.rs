@@ -13,7 +13,7 @@
 use super::backend::Work;
 use super::lanes::{Pack, Quad, ROW, Reals, Words};
 use super::layout::{Layout, Strip};
-use super::meets::{Meeting, Meets};
+use super::meets::{Meeting, Meets, step};
 use loschmidt_core::Arithmetic;
 use loschmidt_core::pairs::{PairPass, Parity};
 use std::marker::PhantomData;
@@ -34,8 +34,8 @@ pub(super) struct Sums {
     pub rows: Vec<Words>,
     /// First row that has sums.
     pub first_row: usize,
-    /// What the particles of the strip at hand have received as i, a row of components for each.
-    received: Vec<Words>,
+    /// Records of the particles of the strip at hand, see [`Leg`].
+    records: Vec<Words>,
 }
 
 impl Sums {
@@ -67,6 +67,10 @@ impl Sums {
 }
 
 /// A pass over one strip. All slices begin with its first row.
+///
+/// Each particle of the strip has a *record* for its part as i: a row or more with its coordinates and
+/// words (as bits), and a row for what each lane has given it, for each component. All of it is at one address; with separate
+/// arrays a third of the instructions of a pair computed addresses.
 pub(super) struct Leg<'a, A, P, const D: usize, const READ: usize, const TERM: usize> {
     pass: &'a P,
     strip: Strip,
@@ -74,8 +78,7 @@ pub(super) struct Leg<'a, A, P, const D: usize, const READ: usize, const TERM: u
     x: &'a [Reals],
     words: &'a [Reals],
     sums: &'a mut [Words],
-    /// TERM rows for each particle.
-    received: &'a mut [Words],
+    records: &'a mut [Words],
     arithmetic: PhantomData<A>,
 }
 
@@ -131,6 +134,11 @@ where
     A: Arithmetic,
     P: PairPass<A, D, READ, TERM>,
 {
+    /// Rows of a record with coordinates and words.
+    const HEAD: usize = (D + READ).div_ceil(ROW);
+    /// Rows of a record.
+    const RECORD: usize = Self::HEAD + TERM;
+
     /// A pass over strip number `s`. `words` are READ to a row, from row `words_from` on.
     ///
     /// # Panics
@@ -147,9 +155,9 @@ where
         let (strip, meets) = s.map_or(nobody, |s| (layout.strips[s], &layout.meets[s]));
         let rows = strip.rows();
         let reached = meets.rows().max(rows.len());
-        let received = strip.len * TERM;
-        if sums.received.len() < received {
-            sums.received.resize(received, Words::default());
+        if sums.records.len() < strip.len * Self::RECORD {
+            sums.records
+                .resize(strip.len * Self::RECORD, Words::default());
         }
         let x = &layout.x[rows.start * D..];
         let words = match READ {
@@ -166,6 +174,16 @@ where
         assert!(reached * D <= x.len());
         assert!(reached * READ <= words.len());
         assert!(reached * TERM <= sums_of.len());
+        let records = &mut sums.records[..strip.len * Self::RECORD];
+        for (k, record) in records.chunks_exact_mut(Self::RECORD).enumerate() {
+            let (row, lane) = (k / ROW, k % ROW);
+            for d in 0..D {
+                set(record, d, x[row * D + d].0[lane]);
+            }
+            for c in 0..READ {
+                set(record, D + c, words[row * READ + c].0[lane]);
+            }
+        }
         Self {
             pass,
             strip,
@@ -173,43 +191,42 @@ where
             x,
             words,
             sums: sums_of,
-            received: &mut sums.received[..received],
+            records,
             arithmetic: PhantomData,
         }
     }
 
-    /// Particle k meets a row. With OWN, it is its own row, and only those that come after k count.
-    /// Returns the argument of the terms.
+    /// Particle k meets the row that begins `at` steps from the first. With OWN, it is its own row, and
+    /// only those that come after k count. Returns the argument of the terms.
     ///
     /// # Safety
-    /// k is below the number of particles of the strip; `row` is one of the strip's own or of its
+    /// k is below the number of particles of the strip; the row is one of the strip's own or of its
     /// meetings.
     #[inline(always)]
     unsafe fn meet<Q: Quad, const OWN: bool>(
         &mut self,
         simd: Q,
         k: usize,
-        row: usize,
+        at: usize,
         argument: impl Argument<Q>,
     ) -> Reals {
         debug_assert!(k < self.strip.len);
         // SAFETY: `new` has made sure that all rows of the strip and of its meetings are in these
-        // slices, and k < strip.len, so that row k / ROW is one of the strip.
-        let (x_i, x_j, words_i, words_j, sums, received) = unsafe {
+        // slices, and that there are records for all particles of the strip.
+        let (record, x_j, words_j, sums) = unsafe {
             (
-                rows_at::<_, D>(self.x, k / ROW),
-                rows_at::<_, D>(self.x, row),
-                rows_at::<_, READ>(self.words, k / ROW),
-                rows_at::<_, READ>(self.words, row),
-                rows_at_mut::<_, TERM>(self.sums, row),
-                rows_at_mut::<_, TERM>(self.received, k),
+                self.records.as_mut_ptr().add(k * Self::RECORD),
+                rows_at::<_, D, D>(self.x, at),
+                rows_at::<_, READ, D>(self.words, at),
+                rows_at_mut::<_, TERM, D>(self.sums, at),
             )
         };
+        // SAFETY: a record has HEAD rows with D + READ numbers in them, and then TERM rows.
+        let of_i = |n: usize| unsafe { f64::from_bits((*record.add(n / ROW)).0[n % ROW] as u64) };
         let zero = Pack::<A::Real, Q>::new(simd, simd.splat(0.0));
         let mut x_ij = [zero; D];
         for d in 0..D {
-            let x_i = simd.splat(x_i[d].0[k % ROW]);
-            x_ij[d] = Pack::new(simd, simd.sub(x_i, simd.load(x_j[d])));
+            x_ij[d] = Pack::new(simd, simd.sub(simd.splat(of_i(d)), simd.load(x_j[d])));
         }
         let mut r2 = x_ij[0] * x_ij[0];
         for x in &x_ij[1..] {
@@ -221,7 +238,7 @@ where
         let argument = argument.get::<A, P, D, READ, TERM>(self.pass, r2);
         let (mut read_i, mut read_j) = ([zero; READ], [zero; READ]);
         for c in 0..READ {
-            read_i[c] = Pack::new(simd, simd.splat(words_i[c].0[k % ROW]));
+            read_i[c] = Pack::new(simd, simd.splat(of_i(D + c)));
             read_j[c] = Pack::new(simd, simd.load(words_j[c]));
         }
         let term = self.pass.term(&x_ij, argument, &read_i, &read_j);
@@ -232,11 +249,13 @@ where
                 Parity::Symmetric => simd.plus(old, rounded),
                 Parity::Antisymmetric => simd.minus(old, rounded),
             });
-            received[c] = simd.store_words(if OWN {
+            // SAFETY: as above.
+            let received = unsafe { &mut *record.add(Self::HEAD + c) };
+            *received = simd.store_words(if OWN {
                 // The first that i receives in this strip.
                 rounded
             } else {
-                simd.plus(simd.load_words(received[c]), rounded)
+                simd.plus(simd.load_words(*received), rounded)
             });
         }
         simd.store(argument.row)
@@ -247,15 +266,15 @@ where
     fn own<Q: Quad>(&mut self, simd: Q, k: usize, argument: impl Argument<Q>) -> Reals {
         assert!(k < self.strip.len);
         // SAFETY: k is a particle of the strip and k / ROW its row.
-        unsafe { self.meet::<Q, true>(simd, k, k / ROW, argument) }
+        unsafe { self.meet::<Q, true>(simd, k, k / ROW * step(D), argument) }
     }
 
     /// Meeting number m of the list.
     #[inline(always)]
     fn other<Q: Quad>(&mut self, simd: Q, m: usize, argument: impl Argument<Q>) -> Reals {
-        let [k, row] = self.meets[m];
+        let meeting = self.meets[m];
         // SAFETY: the bounds of the meetings are those that `new` has compared.
-        unsafe { self.meet::<Q, false>(simd, k as usize, row as usize, argument) }
+        unsafe { self.meet::<Q, false>(simd, meeting.particle(), meeting.at(), argument) }
     }
 
     /// The whole strip.
@@ -326,10 +345,10 @@ where
     #[inline(always)]
     fn settle(&mut self) {
         let sums = self.sums.chunks_exact_mut(TERM);
-        let received = self.received.chunks(ROW * TERM);
-        for (sums, received) in sums.zip(received) {
-            for (l, received) in received.chunks_exact(TERM).enumerate() {
-                for (sum, row) in sums.iter_mut().zip(received) {
+        let records = self.records.chunks(ROW * Self::RECORD);
+        for (sums, records) in sums.zip(records) {
+            for (l, record) in records.chunks_exact(Self::RECORD).enumerate() {
+                for (sum, row) in sums.iter_mut().zip(&record[Self::HEAD..]) {
                     let [a, b, c, d] = row.0;
                     let total = a.wrapping_add(b).wrapping_add(c.wrapping_add(d));
                     sum.0[l] = sum.0[l].wrapping_add(total);
@@ -339,15 +358,21 @@ where
     }
 }
 
-/// Row number `row` of an array with N items to a row.
+/// Writes number n of a record.
+#[inline(always)]
+fn set(record: &mut [Words], n: usize, value: f64) {
+    record[n / ROW].0[n % ROW] = value.to_bits() as i64;
+}
+
+/// The row that begins `at` steps of dimension D from the first, of an array with N items to a row.
 ///
 /// # Safety
 /// The array has such a row.
 #[inline(always)]
-unsafe fn rows_at<T, const N: usize>(items: &[T], row: usize) -> &[T; N] {
-    debug_assert!((row + 1) * N <= items.len());
+unsafe fn rows_at<T, const N: usize, const D: usize>(items: &[T], at: usize) -> &[T; N] {
+    debug_assert!((at / step(D) + 1) * N <= items.len() && at.is_multiple_of(step(D)));
     // SAFETY: an array of N has the layout of N items, and the caller vouches for their being there.
-    unsafe { &*items.as_ptr().add(row * N).cast::<[T; N]>() }
+    unsafe { &*items.as_ptr().byte_add(at * bytes::<T, N, D>()).cast() }
 }
 
 /// As [`rows_at`].
@@ -355,10 +380,20 @@ unsafe fn rows_at<T, const N: usize>(items: &[T], row: usize) -> &[T; N] {
 /// # Safety
 /// The array has such a row.
 #[inline(always)]
-unsafe fn rows_at_mut<T, const N: usize>(items: &mut [T], row: usize) -> &mut [T; N] {
-    debug_assert!((row + 1) * N <= items.len());
+unsafe fn rows_at_mut<T, const N: usize, const D: usize>(
+    items: &mut [T],
+    at: usize,
+) -> &mut [T; N] {
+    debug_assert!((at / step(D) + 1) * N <= items.len() && at.is_multiple_of(step(D)));
     // SAFETY: as in `rows_at`; the array is borrowed for as long as the row.
-    unsafe { &mut *items.as_mut_ptr().add(row * N).cast::<[T; N]>() }
+    unsafe { &mut *items.as_mut_ptr().byte_add(at * bytes::<T, N, D>()).cast() }
+}
+
+/// Bytes of a step where N items of 32 bytes make a row.
+#[inline(always)]
+const fn bytes<T, const N: usize, const D: usize>() -> usize {
+    const { assert!(size_of::<T>().is_multiple_of(step(D))) };
+    N * (size_of::<T>() / step(D))
 }
 
 /// One pass over some strips.

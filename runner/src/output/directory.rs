@@ -10,6 +10,7 @@ use super::{COLLECTION, frame_path};
 use crate::frame::Frame;
 use crate::run::Row;
 use std::fs::{self, File};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -121,10 +122,20 @@ fn io(what: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> OutputE
 }
 
 /// Writes beside the file and renames, so that a reader sees the old or the new, never a half.
-fn replace(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+fn replace_by(
+    path: &Path,
+    write: impl FnOnce(&File) -> std::io::Result<()>,
+) -> Result<(), OutputError> {
     let beside = path.with_extension("part");
-    fs::write(&beside, bytes).map_err(io("write", &beside))?;
+    File::create(&beside)
+        .and_then(|file| write(&file))
+        .map_err(io("write", &beside))?;
     fs::rename(&beside, path).map_err(io("replace", path))
+}
+
+/// As [`replace_by`], with these bytes.
+fn replace(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    replace_by(path, |mut file| file.write_all(bytes))
 }
 
 impl RunDirectory {
@@ -274,7 +285,7 @@ impl RunDirectory {
     /// The file system's.
     pub fn write_snapshot(&self, name: &str, snapshot: &Snapshot) -> Result<PathBuf, OutputError> {
         let path = Self::snapshot_path(&self.path, name);
-        replace(&path, &snapshot.to_bytes())?;
+        replace_by(&path, |file| snapshot.write(file))?;
         Ok(path)
     }
 

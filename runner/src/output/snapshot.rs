@@ -21,10 +21,12 @@
 //! | 8 W | density field of the walls |
 //! | 16 | SipHash-2-4-128 (zero key) of everything before |
 
+use super::PIECE;
 use crate::player::Arrow;
 use crate::saved::{ArithmeticKind, SavedState};
-use loschmidt_core::digest::{Header, Kind, ParticleSum, hash};
+use loschmidt_core::digest::{Hashing, Header, Kind, ParticleSum, hash};
 use loschmidt_core::{Digest, Scale};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -86,14 +88,26 @@ impl Snapshot {
     /// The bytes of the file.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        // A vector takes all that is written to it.
+        let _ = self.write(&mut bytes);
+        bytes
+    }
+
+    /// Writes the file, in pieces.
+    ///
+    /// # Errors
+    /// What `to` reports.
+    pub fn write(&self, to: impl Write) -> io::Result<()> {
         let s = &self.state;
-        let words: usize = s.fields.iter().map(|(_, w)| w.len()).sum();
-        let walls = s.wall_position.len() + s.wall_density.len();
-        let mut bytes = Vec::with_capacity(256 + 8 * (words + s.id.len() + walls));
-        let push = |bytes: &mut Vec<u8>, word: i64| bytes.extend_from_slice(&word.to_le_bytes());
-        bytes.extend_from_slice(MAGIC);
-        push(&mut bytes, VERSION as i64);
-        bytes.extend_from_slice(&self.scene);
+        let mut writer = Writer {
+            to,
+            piece: Vec::with_capacity(PIECE + 8),
+            hashing: Hashing::default(),
+        };
+        writer.bytes(MAGIC)?;
+        writer.word(VERSION as i64)?;
+        writer.bytes(&self.scene)?;
         for word in [
             s.dimension as i64,
             i64::from(s.arithmetic == ArithmeticKind::Float),
@@ -107,20 +121,18 @@ impl Snapshot {
             s.wall_density.len() as i64,
             s.fields.len() as i64,
         ] {
-            push(&mut bytes, word);
+            writer.word(word)?;
         }
         for (name, words) in &s.fields {
-            push(&mut bytes, name.len() as i64);
-            bytes.extend_from_slice(name.as_bytes());
-            push(&mut bytes, (words.len() / s.id.len().max(1)) as i64);
-            words.iter().for_each(|w| push(&mut bytes, *w));
+            writer.word(name.len() as i64)?;
+            writer.bytes(name.as_bytes())?;
+            writer.word((words.len() / s.id.len().max(1)) as i64)?;
+            words.iter().try_for_each(|w| writer.word(*w))?;
         }
-        s.id.iter().for_each(|id| push(&mut bytes, *id as i64));
-        s.wall_position.iter().for_each(|w| push(&mut bytes, *w));
-        s.wall_density.iter().for_each(|w| push(&mut bytes, *w));
-        let checksum = hash(&bytes);
-        bytes.extend_from_slice(&checksum);
-        bytes
+        s.id.iter().try_for_each(|id| writer.word(*id as i64))?;
+        let walls = s.wall_position.iter().chain(&s.wall_density);
+        walls.into_iter().try_for_each(|w| writer.word(*w))?;
+        writer.finish()
     }
 
     /// Reads the bytes of a file.
@@ -264,6 +276,36 @@ fn negated(word: i64, arithmetic: ArithmeticKind) -> i64 {
         ArithmeticKind::Fixed => word.wrapping_neg(),
         // A zero stays the positive zero.
         ArithmeticKind::Float => (0.0 - f64::from_bits(word as u64)).to_bits() as i64,
+    }
+}
+
+/// Writes a file in pieces and keeps its checksum.
+struct Writer<W> {
+    to: W,
+    piece: Vec<u8>,
+    hashing: Hashing,
+}
+
+impl<W: Write> Writer<W> {
+    fn word(&mut self, word: i64) -> io::Result<()> {
+        self.bytes(&word.to_le_bytes())
+    }
+    fn bytes(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.piece.extend_from_slice(bytes);
+        if self.piece.len() < PIECE {
+            return Ok(());
+        }
+        self.spill()
+    }
+    fn spill(&mut self) -> io::Result<()> {
+        self.hashing.add(&self.piece);
+        self.to.write_all(&self.piece)?;
+        self.piece.clear();
+        Ok(())
+    }
+    fn finish(mut self) -> io::Result<()> {
+        self.spill()?;
+        self.to.write_all(&self.hashing.finish())
     }
 }
 

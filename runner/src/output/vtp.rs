@@ -41,6 +41,7 @@
 //! and takes 4⌈(8 + n)/3⌉ characters.
 
 use std::io::{self, Write};
+use std::ops::Range;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -57,8 +58,8 @@ struct Array {
     tuple_bytes: usize,
     /// Numbers per tuple.
     components: usize,
-    /// Appends its bytes.
-    fill: fn(&Frame, &mut Vec<u8>),
+    /// Appends the bytes of some of its tuples.
+    fill: fn(&Frame, Range<usize>, &mut Vec<u8>),
 }
 
 const fn array(
@@ -66,7 +67,7 @@ const fn array(
     number: &'static str,
     tuple_bytes: usize,
     components: usize,
-    fill: fn(&Frame, &mut Vec<u8>),
+    fill: fn(&Frame, Range<usize>, &mut Vec<u8>),
 ) -> Array {
     Array {
         name,
@@ -78,57 +79,70 @@ const fn array(
 }
 
 const FIELD_DATA: [Array; 5] = [
-    array("TimeValue", "Float64", 8, 1, |frame, raw| {
+    array("TimeValue", "Float64", 8, 1, |frame, _, raw| {
         raw.extend_from_slice(&frame.elapsed.to_le_bytes());
     }),
-    array("time", "Float64", 8, 1, |frame, raw| {
+    array("time", "Float64", 8, 1, |frame, _, raw| {
         raw.extend_from_slice(&frame.time.to_le_bytes());
     }),
-    array("step", "UInt64", 8, 1, |frame, raw| {
+    array("step", "UInt64", 8, 1, |frame, _, raw| {
         raw.extend_from_slice(&frame.step.to_le_bytes());
     }),
-    array("way_back", "UInt8", 1, 1, |frame, raw| {
+    array("way_back", "UInt8", 1, 1, |frame, _, raw| {
         raw.push(frame.way_back.into());
     }),
-    array("particle_mass", "Float64", 8, 1, |frame, raw| {
+    array("particle_mass", "Float64", 8, 1, |frame, _, raw| {
         raw.extend_from_slice(&frame.particle_mass.to_le_bytes());
     }),
 ];
 
 const POINT_DATA: [Array; 5] = [
-    array("id", "Int64", 8, 1, |frame, raw| {
-        let ids = frame.id.iter().copied().chain(frame.wall_ids());
-        ids.for_each(|id| raw.extend_from_slice(&id.to_le_bytes()));
+    array("id", "Int64", 8, 1, |frame, places, raw| {
+        let (fluid, walls) = split(frame, places);
+        let ids = frame.wall_ids().skip(walls.start).take(walls.len());
+        for id in frame.id[fluid].iter().copied().chain(ids) {
+            raw.extend_from_slice(&id.to_le_bytes());
+        }
     }),
-    array("kind", "UInt8", 1, 1, |frame, raw| {
-        raw.resize(raw.len() + frame.id.len(), Kind::Fluid as u8);
-        raw.resize(raw.len() + frame.wall_position.len(), Kind::Wall as u8);
+    array("kind", "UInt8", 1, 1, |frame, places, raw| {
+        let (fluid, walls) = split(frame, places);
+        raw.resize(raw.len() + fluid.len(), Kind::Fluid as u8);
+        raw.resize(raw.len() + walls.len(), Kind::Wall as u8);
     }),
-    array("velocity", "Float64", 24, 3, |frame, raw| {
-        vectors(&frame.velocity, raw);
-        raw.resize(raw.len() + 24 * frame.wall_position.len(), 0); // the bytes of 0.0
+    array("velocity", "Float64", 24, 3, |frame, places, raw| {
+        let (fluid, walls) = split(frame, places);
+        vectors(&frame.velocity[fluid], raw);
+        raw.resize(raw.len() + 24 * walls.len(), 0); // the bytes of 0.0
     }),
-    array("density", "Float64", 8, 1, |frame, raw| {
-        fluid_scalars(&frame.density, frame, raw);
+    array("density", "Float64", 8, 1, |frame, places, raw| {
+        fluid_scalars(&frame.density, split(frame, places), raw);
     }),
-    array("pressure", "Float64", 8, 1, |frame, raw| {
-        fluid_scalars(&frame.pressure, frame, raw);
+    array("pressure", "Float64", 8, 1, |frame, places, raw| {
+        fluid_scalars(&frame.pressure, split(frame, places), raw);
     }),
 ];
 
-const POINTS: [Array; 1] = [array("position", "Float64", 24, 3, |frame, raw| {
-    vectors(&frame.position, raw);
-    vectors(&frame.wall_position, raw);
+const POINTS: [Array; 1] = [array("position", "Float64", 24, 3, |frame, places, raw| {
+    let (fluid, walls) = split(frame, places);
+    vectors(&frame.position[fluid], raw);
+    vectors(&frame.wall_position[walls], raw);
 })];
 
 const VERTS: [Array; 2] = [
-    array("connectivity", "Int64", 8, 1, |frame, raw| {
-        (0..frame.particles() as u64).for_each(|i| raw.extend_from_slice(&i.to_le_bytes()));
+    array("connectivity", "Int64", 8, 1, |_, places, raw| {
+        places.for_each(|i| raw.extend_from_slice(&(i as u64).to_le_bytes()));
     }),
-    array("offsets", "Int64", 8, 1, |frame, raw| {
-        (1..=frame.particles() as u64).for_each(|i| raw.extend_from_slice(&i.to_le_bytes()));
+    array("offsets", "Int64", 8, 1, |_, places, raw| {
+        places.for_each(|i| raw.extend_from_slice(&(i as u64 + 1).to_le_bytes()));
     }),
 ];
+
+/// Places in the lists of the fluid and of the walls.
+fn split(frame: &Frame, places: Range<usize>) -> (Range<usize>, Range<usize>) {
+    let n = frame.id.len();
+    let fluid = places.start.min(n)..places.end.min(n);
+    (fluid, places.start.max(n) - n..places.end.max(n) - n)
+}
 
 fn vectors(values: &[[f64; 3]], raw: &mut Vec<u8>) {
     for value in values.as_flattened() {
@@ -136,11 +150,11 @@ fn vectors(values: &[[f64; 3]], raw: &mut Vec<u8>) {
     }
 }
 
-fn fluid_scalars(values: &[f64], frame: &Frame, raw: &mut Vec<u8>) {
-    for value in values {
+fn fluid_scalars(values: &[f64], (fluid, walls): (Range<usize>, Range<usize>), raw: &mut Vec<u8>) {
+    for value in &values[fluid] {
         raw.extend_from_slice(&value.to_le_bytes());
     }
-    for _ in &frame.wall_position {
+    for _ in walls {
         raw.extend_from_slice(&f64::NAN.to_le_bytes());
     }
 }
@@ -167,26 +181,45 @@ impl VtpWriter {
         self.text.clear();
         header(frame.particles(), &mut self.text)?;
         to.write_all(&self.text)?;
-        let arrays = FIELD_DATA.iter().chain(&POINT_DATA);
-        for array in arrays.chain(&POINTS).chain(&VERTS) {
-            self.append(array, frame, &mut to)?;
+        for array in &FIELD_DATA {
+            self.append(array, frame, 1, &mut to)?;
+        }
+        for array in POINT_DATA.iter().chain(&POINTS).chain(&VERTS) {
+            self.append(array, frame, frame.particles(), &mut to)?;
         }
         to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
     }
 
-    /// Writes the base64 text of an array.
-    fn append(&mut self, array: &Array, frame: &Frame, to: &mut impl Write) -> io::Result<()> {
-        const LENGTH: usize = size_of::<u64>();
+    /// Writes the base64 text of an array of so many tuples.
+    fn append(
+        &mut self,
+        array: &Array,
+        frame: &Frame,
+        tuples: usize,
+        to: &mut impl Write,
+    ) -> io::Result<()> {
+        // As many tuples as make about a piece of text.
+        const TUPLES: usize = PIECE / 32;
+        let length = (array.tuple_bytes * tuples) as u64;
         self.raw.clear();
-        self.raw.resize(LENGTH, 0);
-        (array.fill)(frame, &mut self.raw);
-        let length = (self.raw.len() - LENGTH) as u64;
-        self.raw[..LENGTH].copy_from_slice(&length.to_le_bytes());
-        self.text.resize(PIECE, 0);
-        // Every piece but the last is a multiple of three bytes, so padding stands only at the end.
-        for piece in self.raw.chunks(PIECE / 4 * 3) {
-            let written = STANDARD.encode_slice(piece, &mut self.text);
+        self.raw.extend_from_slice(&length.to_le_bytes());
+        let mut first = 0;
+        loop {
+            let last = (first + TUPLES).min(tuples);
+            (array.fill)(frame, first..last, &mut self.raw);
+            // Padding stands only at the end: whole threes, and the rest goes on.
+            let whole = match last == tuples {
+                true => self.raw.len(),
+                false => self.raw.len() / 3 * 3,
+            };
+            self.text.resize(whole.div_ceil(3) * 4, 0);
+            let written = STANDARD.encode_slice(&self.raw[..whole], &mut self.text);
             to.write_all(&self.text[..written.map_err(io::Error::other)?])?;
+            self.raw.drain(..whole);
+            if last == tuples {
+                break;
+            }
+            first = last;
         }
         Ok(())
     }

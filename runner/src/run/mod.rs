@@ -287,6 +287,9 @@ impl Run {
             }
             self.rows.push(row);
         }
+        if due.frame || due.snapshot {
+            self.player.release();
+        }
         if step == self.plan.out && self.plan.back > 0 {
             self.turnaround_digest = Some(self.player.digest().to_string());
             self.write_snapshot("turnaround")?;

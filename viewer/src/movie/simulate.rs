@@ -259,7 +259,6 @@ impl<'a> Export<'a> {
 
     /// Writes the runs as they were after the latest picture.
     fn checkpoint(&self, movie: &Movie) -> Result<(), MovieError> {
-        use std::io::Write;
         for (n, strand) in self.strands.iter().enumerate() {
             let (state, position, arrow) = strand.kept.clone();
             let snapshot = Snapshot {
@@ -272,9 +271,7 @@ impl<'a> Export<'a> {
                 let mut writer = SeriesWriter::new(file);
                 strand.rows.iter().try_for_each(|row| writer.write(row))
             })?;
-            replace(&movie.state_path(n), |file| {
-                file.write_all(&snapshot.to_bytes())
-            })?;
+            replace(&movie.state_path(n), |file| snapshot.write(file))?;
         }
         Ok(())
     }
