@@ -185,10 +185,17 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
         let system = self.storage.system();
         let state = &system.state;
         let fields = state.fields().into_iter().enumerate().map(|(f, field)| {
-            let mut words = Vec::with_capacity(places.len() * field.components);
-            for &place in &places {
-                words.extend((0..field.components).map(|c| state.word(f, c, place)));
-            }
+            let components = field.components;
+            let mut words = vec![0; places.len() * components];
+            words
+                .par_chunks_exact_mut(components)
+                .with_min_len(PART)
+                .zip(&places)
+                .for_each(|(words, &place)| {
+                    for (c, word) in words.iter_mut().enumerate() {
+                        *word = state.word(f, c, place);
+                    }
+                });
             (field.name.to_owned(), words)
         });
         SavedState {

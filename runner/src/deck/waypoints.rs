@@ -10,10 +10,14 @@
 
 use crate::player::Arrow;
 use crate::saved::{ArithmeticKind, SavedState};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Most memory for marks, bytes.
 const MEMORY: usize = 64 << 20;
+
+/// Fewest particles worth a thread of their own.
+const PART: usize = 4096;
 
 /// The marks of the way out.
 #[derive(Debug)]
@@ -63,10 +67,11 @@ fn marks(state: &SavedState, arrow: Arrow) -> Vec<u32> {
         ArithmeticKind::Fixed => word,
         ArithmeticKind::Float => f64::from_bits(word as u64).round_ties_even() as i64,
     };
-    let position = state.fields[0].1.chunks(d);
-    let velocity = state.fields[1].1.chunks(d);
+    let position = state.fields[0].1.par_chunks(d);
+    let velocity = state.fields[1].1.par_chunks(d);
     position
         .zip(velocity)
+        .with_min_len(PART)
         .map(|(x, v)| {
             let v = v.iter().map(|&v| match arrow {
                 Arrow::Forward => quanta(v),

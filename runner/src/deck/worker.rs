@@ -21,8 +21,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Steps are taken in pieces of about this many particle steps: some milliseconds.
-const PIECE: u64 = 20_000;
+/// Steps are taken in pieces of about this time: handing over each of them costs more than a longer
+/// wait for a command.
+const PIECE: Duration = Duration::from_millis(8);
 
 type Tell = Box<dyn Fn(Report) + Send>;
 
@@ -85,8 +86,8 @@ struct Worker {
     span: i64,
     /// Steps between rows.
     every: i64,
-    /// Steps in a piece.
-    piece: u64,
+    /// What a step takes, lately, s.
+    step_time: f64,
     waypoints: Waypoints,
     astray: Option<usize>,
     meddling: Vec<Meddling>,
@@ -128,7 +129,8 @@ impl Worker {
             playing: true,
             seek: None,
             every,
-            piece: (PIECE / particles.max(1) as u64).max(1),
+            // The first piece is one step.
+            step_time: PIECE.as_secs_f64(),
             waypoints: Waypoints::new(every, particles),
             astray: None,
             meddling: Vec::new(),
@@ -222,11 +224,11 @@ impl Worker {
         match self.clock.due(now) {
             Err(wait) => wait,
             Ok(due) => {
-                let steps = due.min(self.piece).min(self.room());
+                let steps = due.min(self.piece(now)).min(self.room());
                 match self.player.advance(steps) {
                     Ok(()) => {
                         self.beside(|companion| companion.advance(steps));
-                        self.clock.took(steps, Instant::now());
+                        self.took(steps, now);
                         self.moved(self.player.arrow());
                     }
                     Err(fault) => self.fail(fault),
@@ -234,6 +236,28 @@ impl Worker {
                 Duration::ZERO
             }
         }
+    }
+
+    /// Steps in a piece that begins now: fewer where a picture is due before its end.
+    fn piece(&self, now: Instant) -> u64 {
+        let due = self.pictured.filter(|_| self.ready.load(Ordering::Acquire));
+        let time = due.map_or(PIECE, |last| {
+            let due = last + Duration::from_secs(1) / self.frames;
+            due.saturating_duration_since(now).min(PIECE)
+        });
+        (time.as_secs_f64() / self.step_time).round().max(1.0) as u64
+    }
+
+    /// So many steps were taken since.
+    fn took(&mut self, steps: u64, since: Instant) {
+        /// Weight of the latest piece.
+        const LATEST: f64 = 0.25;
+        let now = Instant::now();
+        if steps > 0 {
+            let took = now.duration_since(since).as_secs_f64() / steps as f64;
+            self.step_time += LATEST * (took.max(1e-7) - self.step_time);
+        }
+        self.clock.took(steps, now);
     }
 
     /// Time has been turned, and the start reached.
@@ -264,18 +288,16 @@ impl Worker {
         } else {
             Arrow::Forward
         };
+        let began = Instant::now();
         let past = position.rem_euclid(self.every);
         let next = match travel {
             Arrow::Forward => (position - past + self.every).min(seek.target),
             Arrow::Backward if past == 0 => (position - self.every).max(seek.target),
             Arrow::Backward => (position - past).max(seek.target),
         };
-        let piece = self.piece as i64;
-        let next = next.clamp(position - piece, position + piece);
-        match self
-            .player
-            .seek(next, self.piece, |_| ControlFlow::Continue(()))
-        {
+        let piece = self.piece(began);
+        let next = next.clamp(position - piece as i64, position + piece as i64);
+        match self.player.seek(next, piece, |_| ControlFlow::Continue(())) {
             Ok(()) => {}
             Err(crate::player::PlayerError::Fault(fault)) => return self.fail(fault),
             Err(why) => {
@@ -284,7 +306,7 @@ impl Worker {
             }
         }
         self.beside(|companion| companion.walk(next - position));
-        self.clock.took(next.abs_diff(position), Instant::now());
+        self.took(next.abs_diff(position), began);
         let ended = next == seek.target;
         if ended {
             self.seek = None;
@@ -554,7 +576,10 @@ impl Worker {
         if !self.changed {
             return wait;
         }
+        // Of two ends of a step, the one that is nearer to the time.
         let pause = Duration::from_secs(1) / self.frames;
+        let half_a_step = Duration::from_secs_f64(0.5 * self.step_time).min(pause / 4);
+        let pause = pause - half_a_step;
         let age = self.pictured.map_or(pause, |then| then.elapsed());
         if age < pause {
             return wait.min(pause - age);

@@ -74,8 +74,9 @@ struct Search {
 }
 
 impl Search {
-    /// About as many as fit into the gaps of a step: each takes half a microsecond.
-    const QUICK: u32 = 100;
+    /// About as many as fit into the gaps of a step: each takes half a microsecond, and offers the
+    /// processor to whoever waits for it.
+    const QUICK: u32 = 1000;
     const PAUSE: Duration = Duration::from_micros(20);
 
     fn go_on(&mut self) {
