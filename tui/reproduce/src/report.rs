@@ -2,6 +2,8 @@
 
 use crate::lab::{Lab, LabError};
 use crate::section::{Section, Table, Verdict};
+use crate::svg::is_chart;
+use crate::svg::text::{escaped, with_subscripts};
 use std::fmt::Write;
 use std::fs;
 
@@ -65,6 +67,7 @@ fn markdown_table(out: &mut String, table: &Table) {
 
 fn markdown(lab: &Lab<'_>, sections: &[Section]) -> String {
     let mut out = format!("# {TITLE}\n\n{INTRODUCTION}\n\n{}\n\n", size(lab));
+    markdown_table(&mut out, &summary(sections));
     for section in sections {
         let _ = write!(out, "## {}\n\n{}\n\n", section.title, section.setting);
         if !section.findings.is_empty() {
@@ -84,80 +87,133 @@ fn markdown(lab: &Lab<'_>, sections: &[Section]) -> String {
     out
 }
 
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
+/// Text for HTML: with subscripts, and what stands between backticks as code.
+fn marked(text: &str) -> String {
+    let mut parts = text.split('`').enumerate();
+    parts.by_ref().fold(String::new(), |out, (k, part)| {
+        if k % 2 == 1 {
+            out + "<code>" + &escaped(part) + "</code>"
+        } else {
+            out + &with_subscripts(part, "<sub>", "</sub>")
+        }
+    })
 }
 
-const STYLE: &str = "body{font:16px/1.5 Georgia,serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}\
-h1,h2{font-family:Helvetica,Arial,sans-serif;line-height:1.2}h2{margin-top:3rem;border-top:1px solid #ccc;padding-top:1rem}\
+/// Light and dark; figures stay on white, as they would be printed.
+const STYLE: &str = ":root{color-scheme:light dark;--ink:#222;--soft:#555;--rule:#ccc;--paper:#fff;--good:#00734f;--bad:#b03000}\
+@media(prefers-color-scheme:dark){:root{--ink:#e4e4e4;--soft:#aaa;--rule:#444;--paper:#161616;--good:#4cc79b;--bad:#ff8a5c}}\
+body{font:16px/1.5 Georgia,serif;max-width:64rem;margin:2rem auto;padding:0 1rem;color:var(--ink);background:var(--paper)}\
+h1,h2{font-family:Helvetica,Arial,sans-serif;line-height:1.2}h2{margin-top:3rem;border-top:1px solid var(--rule);padding-top:1rem}\
+sub{font-size:.75em;line-height:0}.scroll{overflow-x:auto}\
 table{border-collapse:collapse;margin:1rem 0;font:14px/1.35 Helvetica,Arial,sans-serif}\
-th{text-align:left;border-bottom:2px solid #444}td,th{padding:.25rem .8rem .25rem 0;vertical-align:top}td{border-bottom:1px solid #ddd}\
-.holds{color:#00734f;font-weight:bold}.fails{color:#b03000;font-weight:bold}.measured{color:#666}\
-figure{display:inline-block;margin:1rem 1rem 1rem 0;vertical-align:top;max-width:100%}\
-figure svg{max-width:100%;height:auto}figcaption{font-size:14px;color:#444;max-width:36rem}caption{text-align:left;font-weight:bold;padding-bottom:.4rem}";
+th{text-align:left;border-bottom:2px solid var(--soft)}td,th{padding:.25rem 1rem .25rem 0;vertical-align:top}td{border-bottom:1px solid var(--rule)}\
+.holds{color:var(--good);font-weight:bold}.fails{color:var(--bad);font-weight:bold}.measured{color:var(--soft)}\
+.figures{display:flex;flex-wrap:wrap;gap:1.5rem 1rem;margin:1.5rem 0}figure{margin:0;width:100%}figure.half{width:calc(50% - .5rem)}\
+figure svg{display:block;width:100%;height:auto}figure.wide svg{max-width:1000px}figcaption{font-size:14px;color:var(--soft);padding:.3rem .3rem 0}\
+caption{text-align:left;font-weight:bold;padding-bottom:.4rem;white-space:nowrap}@media(max-width:44rem){figure.half{width:100%}caption{white-space:normal}}\
+@media print{body{max-width:none}figure,tr{break-inside:avoid}}";
 
 fn html_table(out: &mut String, table: &Table, class: impl Fn(usize, usize) -> &'static str) {
-    *out += "<table>";
+    *out += "<div class=\"scroll\"><table>";
     if !table.caption.is_empty() {
-        let _ = write!(out, "<caption>{}</caption>", escaped(&table.caption));
+        let _ = write!(out, "<caption>{}</caption>", marked(&table.caption));
     }
     *out += "<tr>";
     for head in &table.head {
-        let _ = write!(out, "<th>{}</th>", escaped(head));
+        let _ = write!(out, "<th>{}</th>", marked(head));
     }
     *out += "</tr>\n";
     for (r, row) in table.rows.iter().enumerate() {
         *out += "<tr>";
         for (c, cell) in row.iter().enumerate() {
-            let _ = write!(out, "<td class=\"{}\">{}</td>", class(r, c), escaped(cell));
+            let _ = write!(out, "<td class=\"{}\">{}</td>", class(r, c), marked(cell));
         }
         *out += "</tr>\n";
     }
-    *out += "</table>\n";
+    *out += "</table></div>\n";
+}
+
+/// How many of the findings of each section hold.
+fn summary(sections: &[Section]) -> Table {
+    let count = |section: &Section, verdict| {
+        let of = section.findings.iter().filter(|f| f.verdict == verdict);
+        of.count().to_string()
+    };
+    let rows = sections.iter().map(|section| {
+        vec![
+            section.title.clone(),
+            count(section, Verdict::Holds),
+            count(section, Verdict::Fails),
+            count(section, Verdict::Measured),
+        ]
+    });
+    Table {
+        caption: String::new(),
+        head: ["", "holds", "fails", "measured"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows: rows.collect(),
+    }
 }
 
 fn html(lab: &Lab<'_>, sections: &[Section], figure: impl Fn(&str) -> String) -> String {
     let mut out = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{TITLE}</title><style>{STYLE}</style></head><body>\n<h1>{TITLE}</h1>\n<p>{}</p>\n<p>{}</p>\n",
-        escaped(INTRODUCTION)
-            .replacen('`', "<code>", 1)
-            .replacen('`', "</code>", 1),
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\"><title>{TITLE}</title><style>{STYLE}</style></head><body>\n<h1>{TITLE}</h1>\n<p>{}</p>\n<p>{}</p>\n",
+        marked(INTRODUCTION),
         size(lab)
     );
+    html_table(&mut out, &summary(sections), |row, column| {
+        let fails = sections[row].findings.iter();
+        let none = fails.clone().all(|f| f.verdict != Verdict::Fails);
+        match column {
+            1 => "holds",
+            2 if !none => "fails",
+            0 => "",
+            _ => "measured",
+        }
+    });
     for section in sections {
-        let _ = write!(
-            out,
-            "<h2>{}</h2>\n<p>{}</p>\n",
-            escaped(&section.title),
-            escaped(&section.setting)
-        );
-        if !section.findings.is_empty() {
-            html_table(&mut out, &findings_table(section), |row, column| {
-                match (column, section.findings[row].verdict) {
-                    (4, Verdict::Holds) => "holds",
-                    (4, Verdict::Fails) => "fails",
-                    (4, Verdict::Measured) => "measured",
-                    _ => "",
-                }
-            });
-        }
-        for table in &section.tables {
-            html_table(&mut out, table, |_, _| "");
-        }
-        for note in &section.notes {
-            let _ = writeln!(out, "<p>{}</p>", escaped(note));
-        }
-        for shown in &section.figures {
-            let _ = writeln!(
-                out,
-                "<figure>{}<figcaption>{}</figcaption></figure>",
-                figure(&shown.file),
-                escaped(&shown.caption)
-            );
-        }
+        html_section(&mut out, section, &figure);
     }
     out += "</body></html>\n";
     out
+}
+
+fn html_section(out: &mut String, section: &Section, figure: impl Fn(&str) -> String) {
+    let _ = write!(
+        out,
+        "<h2>{}</h2>\n<p>{}</p>\n",
+        marked(&section.title),
+        marked(&section.setting)
+    );
+    if !section.findings.is_empty() {
+        html_table(out, &findings_table(section), |row, column| {
+            match (column, section.findings[row].verdict) {
+                (4, Verdict::Holds) => "holds",
+                (4, Verdict::Fails) => "fails",
+                (4, Verdict::Measured) => "measured",
+                _ => "",
+            }
+        });
+    }
+    for table in &section.tables {
+        html_table(out, table, |_, _| "");
+    }
+    for note in &section.notes {
+        let _ = writeln!(out, "<p>{}</p>", marked(note));
+    }
+    if section.figures.is_empty() {
+        return;
+    }
+    *out += "<div class=\"figures\">\n";
+    for shown in &section.figures {
+        let svg = figure(&shown.file);
+        let class = if is_chart(&svg) { "half" } else { "wide" };
+        let _ = writeln!(
+            out,
+            "<figure class=\"{class}\">{svg}<figcaption>{}</figcaption></figure>",
+            marked(&shown.caption)
+        );
+    }
+    *out += "</div>\n";
 }

@@ -27,10 +27,11 @@ fn error_over_released(rows: &[Row]) -> f64 {
 
 pub fn fig2(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let spacing = lab.size("particle_spacing=0.04", "particle_spacing=0.01");
+    let metres = lab.size(0.04, 0.01);
     let mut section = Section::new(
         "Fig. 2: the standard scheme gains energy, the symplectic one does not",
         format!(
-            "Table 1 with {spacing} m, one way to 1 s. The standard scheme advances its density once after the drift."
+            "Table 1 with a spacing of {metres} m, one way to 1 s. The standard scheme advances its density once after the drift."
         ),
     );
     let set = |model| [spacing, "turnaround=", "end=1.0", "output.frames=0", model];
@@ -70,7 +71,7 @@ pub fn fig2(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let chart = Chart {
         title: "Energy error".to_owned(),
         x_label: "t, s".to_owned(),
-        y_label: "|E - E(0)| / E_grav(0)".to_owned(),
+        y_label: "|E − E_0| over the gravitational energy at 0".to_owned(),
         y_log: true,
         series: vec![
             svg::line("standard (STD)", 1, std.into_iter()),
@@ -227,7 +228,7 @@ pub fn fig5(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let chart = Chart {
         title: "Fig. 5: error of the total energy".to_owned(),
         x_label: "t, s".to_owned(),
-        y_label: "(E - E(0)) / energy released".to_owned(),
+        y_label: "(E − E_0) / energy released".to_owned(),
         series: both(&|row| (row.total - home.total) / released),
         ..Chart::default()
     };

@@ -20,14 +20,14 @@ pub fn fig4(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let spacings = lab.size(["0.04", "0.02"], ["0.02", "0.01"]);
     let mut section = Section::new(
         "Fig. 4: the leading edge",
-        "Table 1 one way to T = 3.05, with the constants C_a and with the corrected initial state; T = t (2 g/l)^(1/2), X = edge/l, the edge half a spacing beyond the outermost particle.",
+        "Table 1 one way to T = 3.05, with the constants C_a and with the corrected initial state; T = t √(2g/l), X = edge/l, the edge half a spacing beyond the outermost particle.",
     );
     let (experiment, violeau) = (reference::koshizuka_oka(), reference::violeau());
     // Violeau's own distance from the experiment, which ours is measured by.
     let (of_violeau, _) = distance(&violeau, &experiment);
     let mut chart = Chart {
         title: "Fig. 4: leading edge".to_owned(),
-        x_label: "T = t (2 g/l)^(1/2)".to_owned(),
+        x_label: "T = t √(2g/l)".to_owned(),
         y_label: "X = edge / l".to_owned(),
         series: vec![
             svg::styled(
@@ -110,7 +110,7 @@ pub fn fig4(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         &mut section,
         "fig4",
         &chart.svg(),
-        "The caption of the paper's figure has lost the 2 of T = t (2 g/l)^(1/2).",
+        "The caption of the paper's figure has lost the 2 of T = t √(2g/l).",
     )?;
     Ok(section)
 }

@@ -256,7 +256,7 @@ fn refinement(lab: &mut Lab<'_>, section: &mut Section) -> Result<(), LabError> 
 fn pictures(vortex: &Vortex, spacing: f64) -> String {
     let picture = |frame: &Frame, title: &str| Field {
         title: title.to_owned(),
-        bounds: [[-0.53, -0.53], [0.53, 0.53]],
+        bounds: [[-0.5 - 3.0 * spacing; 2], [0.5 + 3.0 * spacing; 2]],
         diameter: spacing,
         points: frame.position.iter().map(|x| [x[0], x[1]]).collect(),
         values: frame.velocity.iter().map(|v| v[0].hypot(v[1])).collect(),
