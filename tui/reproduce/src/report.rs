@@ -163,12 +163,11 @@ fn html(lab: &Lab<'_>, sections: &[Section], figure: impl Fn(&str) -> String) ->
         size(lab)
     );
     html_table(&mut out, &summary(sections), |row, column| {
-        let fails = sections[row].findings.iter();
-        let none = fails.clone().all(|f| f.verdict != Verdict::Fails);
+        let any = |verdict| sections[row].findings.iter().any(|f| f.verdict == verdict);
         match column {
-            1 => "holds",
-            2 if !none => "fails",
             0 => "",
+            1 if any(Verdict::Holds) => "holds",
+            2 if any(Verdict::Fails) => "fails",
             _ => "measured",
         }
     });
