@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use super::{open, text};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// A picture of particles, coloured by a value.
@@ -31,8 +32,9 @@ const VIRIDIS: [&str; 16] = [
     "#1f988b", "#22a884", "#35b779", "#54c568", "#7ad151", "#a5db36", "#d2e21b", "#fde725",
 ];
 
-/// More particles than that are thinned out, and drawn larger: a picture has no more pixels.
-const MOST_POINTS: usize = 20_000;
+/// Particles smaller than that, in pixels, are thinned out to one for each square of this edge: a picture
+/// has no more pixels.
+const FINEST: f64 = 0.9;
 
 /// Left of a picture, above it and below it: room for its ticks and its title, pixels.
 const ROOM: [f64; 3] = [38.0, 24.0, 22.0];
@@ -62,8 +64,18 @@ impl Field {
     fn particles(&self, out: &mut String, width: f64) {
         let [low, high] = self.bounds;
         let scale = width / (high[0] - low[0]);
-        let every = self.points.len().div_ceil(MOST_POINTS).max(1);
-        let diameter = (self.diameter * scale * (every as f64).sqrt()).max(0.6);
+        let is_fine = self.diameter * scale < FINEST;
+        // As large as the diagonal of a square: no gaps are left.
+        let diameter = if is_fine {
+            FINEST * std::f64::consts::SQRT_2
+        } else {
+            self.diameter * scale
+        };
+        let mut taken = BTreeSet::new();
+        let mut is_first = |p: &[f64; 2]| {
+            let square = |x: f64| (scale * x / FINEST).floor() as i64;
+            !is_fine || taken.insert([square(p[0]), square(p[1])])
+        };
         let inside = |p: &[f64; 2]| (0..2).all(|k| (low[k]..=high[k]).contains(&p[k]));
         let place = |p: &[f64; 2]| {
             let (x, y) = (scale * (p[0] - low[0]), scale * (high[1] - p[1]));
@@ -71,8 +83,8 @@ impl Field {
         };
         let mut paths = vec![String::new(); VIRIDIS.len()];
         let [first, last] = self.range;
-        for (p, v) in self.points.iter().zip(&self.values).step_by(every) {
-            if inside(p) {
+        for (p, v) in self.points.iter().zip(&self.values) {
+            if inside(p) && is_first(p) {
                 let t = (v - first) / (last - first);
                 // A NaN becomes the first colour.
                 let class = (t.clamp(0.0, 1.0) * (VIRIDIS.len() - 1) as f64).round() as usize;
@@ -80,13 +92,8 @@ impl Field {
             }
         }
         let walls: String = self.walls.iter().filter(|p| inside(p)).map(place).collect();
-        let wall_diameter = (self.diameter * scale).max(0.6);
-        for (path, colour, diameter) in VIRIDIS
-            .iter()
-            .zip(paths)
-            .map(|(colour, path)| (path, *colour, diameter))
-            .chain([(walls, "#888888", wall_diameter)])
-        {
+        let coloured = VIRIDIS.iter().copied().zip(paths);
+        for (colour, path) in coloured.chain([("#888888", walls)]) {
             if !path.is_empty() {
                 let _ = writeln!(
                     out,
@@ -198,4 +205,30 @@ fn colour_bar(out: &mut String, field: &Field, width: f64, y: f64) {
         x + long + 14.0,
         y + 11.0,
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Field, fields};
+
+    #[test]
+    fn a_picture_holds_every_particle_it_has_room_for_and_no_more_than_one_a_pixel() {
+        let picture = |n: usize| {
+            let at = |k: usize| (k as f64 + 0.5) / n as f64;
+            let points: Vec<[f64; 2]> = (0..n * n).map(|k| [at(k % n), at(k / n)]).collect();
+            let field = Field {
+                bounds: [[0.0; 2], [1.0; 2]],
+                diameter: 1.0 / n as f64,
+                values: points.iter().map(|p| p[0]).collect(),
+                points,
+                range: [0.0, 1.0],
+                ..Field::default()
+            };
+            fields(&[field], 1, 100.0).matches("h0").count()
+        };
+        assert_eq!(picture(10), 100);
+        assert_eq!(picture(100), 10_000);
+        let most = picture(400);
+        assert!((11_000..13_000).contains(&most), "{most}");
+    }
 }

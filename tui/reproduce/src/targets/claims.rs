@@ -110,7 +110,7 @@ pub fn kepler(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         &mut section,
         "kepler-energy",
         &chart.svg(),
-        "The error of the total energy stays bounded.",
+        "The error of the total energy over ten revolutions.",
     )?;
     Ok(section)
 }
