@@ -5,7 +5,7 @@ use std::fs;
 
 const FIG2: [&str; 4] = ["reproduce", "fig2", "--quick", "--out"];
 
-fn fig2<'a>(out: &'a str) -> Vec<&'a str> {
+fn fig2(out: &str) -> Vec<&str> {
     FIG2.into_iter().chain([out]).collect()
 }
 
