@@ -239,7 +239,7 @@ pub fn table2(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     bands
         .series
         .push(svg::styled("exact", 6, Style::Dashed, exact));
-    lab.figure(&mut section, "table2-active", &bands.svg(), "What the active filter leaves of the vortex: on the spirals the flow falls into bands, which differ from the exact velocity far more than its damping on the other lattices does.")?;
+    lab.figure(&mut section, "table2-active", &bands.svg(), "What the active filter leaves of the vortex: on the spirals the flow falls into bands, the more so the finer the spacing.")?;
     for note in NOTES {
         section.note(note);
     }
