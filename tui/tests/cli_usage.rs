@@ -15,7 +15,7 @@ const CATALOGUE: [&str; 6] = [
 ];
 
 /// Makes a few dozen steps of a scene of the catalogue.
-const SHORT: [(&str, &[&str]); 4] = [
+const SHORT: [(&str, &[&str]); 6] = [
     ("dam-break", &["particle_spacing=0.1", "turnaround=0.02"]),
     (
         "dam-break-3d",
@@ -29,6 +29,11 @@ const SHORT: [(&str, &[&str]); 4] = [
         "rotating-drop",
         &["particle_spacing=0.05", "turnaround=0.06"],
     ),
+    (
+        "gresho-vortex",
+        &["particle_spacing=0.05", "turnaround=0.02"],
+    ),
+    ("kepler-ring", &["particle_spacing=0.05", "turnaround=0.5"]),
 ];
 
 #[test]

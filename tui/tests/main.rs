@@ -4,6 +4,7 @@
 mod cli_dashboard;
 mod cli_interrupt;
 mod cli_movie;
+mod cli_reproduce;
 mod cli_result;
 mod cli_resume;
 mod cli_usage;

@@ -48,7 +48,7 @@ pub fn fig1(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let mut chart = Chart {
         title: "Convergence".to_owned(),
         x_label: "Newton step".to_owned(),
-        y_label: "largest |ρ - ρ0|/ρ0".to_owned(),
+        y_label: "largest |ρ − ρ_0| / ρ_0".to_owned(),
         y_log: true,
         ..Chart::default()
     };
@@ -129,12 +129,12 @@ fn pictures(done: &Corrected) -> String {
         let (points, values) = done.stages[n].clone();
         Field {
             title,
-            bounds: [[-0.02, -0.02], [1.02, 1.02]],
+            bounds: [[-0.03, -0.03], [1.03, 1.03]],
             diameter: 0.02,
             points,
             values,
             range: [0.5, 1.05],
-            label: "density over ρ0".to_owned(),
+            label: "density over ρ_0".to_owned(),
             walls: Vec::new(),
         }
     };

@@ -56,3 +56,28 @@ fn same_way_back(past: &Past) -> bool {
             .back()
             .all(|row| out.get(&row.position) == Some(&bits(row)))
 }
+
+/// Slope of a straight line through points by least squares; `None` for fewer than two.
+fn slope(points: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
+    let points: Vec<[f64; 2]> = points.collect();
+    if points.len() < 2 {
+        return None;
+    }
+    let n = points.len() as f64;
+    let mean = |k: usize| points.iter().map(|p| p[k]).sum::<f64>() / n;
+    let (x, y) = (mean(0), mean(1));
+    let sum = |f: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(f).sum::<f64>();
+    Some(sum(&|p| (p[0] - x) * (p[1] - y)) / sum(&|p| (p[0] - x) * (p[0] - x)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::slope;
+
+    #[test]
+    fn the_slope_of_a_straight_line_is_found_and_of_one_point_there_is_none() {
+        let points = (0..5).map(|k| [f64::from(k), 3.0 - 2.5 * f64::from(k)]);
+        assert!((slope(points).expect("points") + 2.5).abs() < 1e-12);
+        assert_eq!(slope([[1.0, 2.0]].into_iter()), None);
+    }
+}

@@ -4,6 +4,7 @@
 //! time is turned at t; the return error is the root mean square distance from home. A chaotic flow
 //! makes it ε exp(λ t) until it saturates at the size of the box. λ is the Lyapunov exponent.
 
+use super::slope;
 use crate::lab::{Lab, LabError, scene};
 use crate::section::Section;
 use crate::svg::{self, Chart, Style};
@@ -56,26 +57,13 @@ fn echo_error(
     Ok(distance(&home, &player.save()))
 }
 
-/// Slope of ln y over x by least squares.
-fn slope(points: &[[f64; 2]]) -> Option<f64> {
-    let n = points.len() as f64;
-    if points.len() < 2 {
-        return None;
-    }
-    let mean = |f: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(f).sum::<f64>() / n;
-    let (x, y) = (mean(&|p| p[0]), mean(&|p| libm::log(p[1])));
-    let xy = mean(&|p| (p[0] - x) * (libm::log(p[1]) - y));
-    let xx = mean(&|p| (p[0] - x) * (p[0] - x));
-    Some(xy / xx)
-}
-
 pub fn echo(lab: &mut Lab<'_>) -> Result<Section, LabError> {
-    let spacing = lab.size("particle_spacing=0.05", "particle_spacing=0.02");
-    let scene = scene("dam-break", &[spacing.to_owned()])?;
+    let spacing = lab.size("0.05", "0.02");
+    let scene = scene("dam-break", &[format!("particle_spacing={spacing}")])?;
     let mut section = Section::new(
         "Beyond the paper: fidelity of the echo",
         format!(
-            "The dam break with {spacing} m. Time is turned at t, every coordinate is moved by ε there, and the run goes back to the start."
+            "The dam break with a spacing of {spacing} m. Time is turned at t, every coordinate is moved by ε there, and the run goes back to the start."
         ),
     );
     let mut player = lab.player(&scene, lab.options())?;
@@ -126,12 +114,13 @@ pub fn echo(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let exact = echo_error(lab, &mut player, &turned[4], 0)?;
     section.check(
         "without a perturbation",
-        format!("{exact:e} m"),
+        format!("{exact} m"),
         "",
         "0",
         exact == 0.0,
     );
-    if let Some(lambda) = slope(&growing) {
+    let logarithms = growing.iter().map(|p| [p[0], libm::log(p[1])]);
+    if let Some(lambda) = slope(logarithms) {
         section.check(
             "Lyapunov exponent from the smallest perturbation",
             format!("{lambda:.1} /s"),
@@ -180,11 +169,8 @@ fn fidelity(
         }
         if k == 0 {
             // From 2^12 quanta: below, the roundings on the way are perturbations too.
-            let linear: Vec<[f64; 2]> = points[2..5]
-                .iter()
-                .map(|p| [libm::log(p[0]), p[1]])
-                .collect();
-            if let Some(power) = slope(&linear) {
+            let linear = points[2..5].iter().map(|p| p.map(libm::log));
+            if let Some(power) = slope(linear) {
                 section.check(
                     "power of ε in the return error, turned at 0.1 s",
                     format!("{power:.2}"),
@@ -200,18 +186,4 @@ fn fidelity(
             .push(svg::styled(&label, k, Style::LineDots, points.into_iter()));
     }
     lab.figure(section, "echo-fidelity", &chart.svg(), "Early on the return error is proportional to the perturbation; late, the smallest one is as bad as any.")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::slope;
-
-    #[test]
-    fn the_slope_of_an_exponential_is_its_rate() {
-        let points: Vec<[f64; 2]> = (0..5)
-            .map(|k| [f64::from(k), 3.0 * libm::exp(2.5 * f64::from(k))])
-            .collect();
-        assert!((slope(&points).expect("points") - 2.5).abs() < 1e-12);
-        assert_eq!(slope(&points[..1]), None);
-    }
 }

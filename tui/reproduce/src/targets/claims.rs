@@ -79,7 +79,7 @@ pub fn kepler(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let chart = Chart {
         title: "Thickness of the ring".to_owned(),
         x_label: "revolutions".to_owned(),
-        y_label: "rms of r - mean, m".to_owned(),
+        y_label: "rms of r − mean, m".to_owned(),
         y_range: Some([0.0, 1.3 * last.max(first)]),
         series: vec![svg::styled("", 0, Style::LineDots, thickness.into_iter())],
         ..Chart::default()
@@ -93,7 +93,7 @@ pub fn kepler(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let chart = Chart {
         title: "Energy of the ring".to_owned(),
         x_label: "revolutions".to_owned(),
-        y_label: "E/E(0) - 1".to_owned(),
+        y_label: "E / E_0 − 1".to_owned(),
         series: vec![svg::line(
             "",
             1,
@@ -110,7 +110,7 @@ pub fn kepler(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         &mut section,
         "kepler-energy",
         &chart.svg(),
-        "The error of the total energy stays bounded.",
+        "The error of the total energy over ten revolutions.",
     )?;
     Ok(section)
 }
