@@ -16,6 +16,7 @@ mod isc;
 mod kernel;
 mod neighbours;
 mod number;
+mod pieces;
 mod player_moves;
 mod reversal;
 mod run_conservation;

@@ -1,10 +1,10 @@
 //! The fast executor: the core's sums in vector instructions, each pair once.
 //!
 //! `layout` keeps the state sorted into strips, so that neighbours are contiguous, and lists of who
-//! can meet whom (`making`, `meets`), `sweep` walks the pairs with the model's own pair terms written for rows of four, `chain`
-//! does two sums in one go, `walls` keeps the few particles that are near walls, [`Backend`] chooses
-//! the instructions at run time. Parts of the strips go to threads, each with sums of its own, which
-//! are added afterwards.
+//! can meet whom (`making`, `meets`); `sweep` walks the pairs with the model's own pair terms written
+//! for rows of four; `chain` does two sums in one go; `walls` keeps the few particles that are near
+//! walls; [`Backend`] chooses the instructions at run time. Parts of the strips go to threads
+//! (`awake`), each with sums of its own, which are added afterwards.
 //!
 //! A sweep does not look at single terms for their range; instead the pass bounds all of them from
 //! the largest words ([`PairPass::bound`]). Where the bound does not hold, or some particle has more
