@@ -57,6 +57,23 @@ fn fault(kind: FaultKind, particle: u64, step: u64) -> Fault {
 }
 
 #[test]
+fn of_kicks_that_two_steps_add_in_one_go_the_step_is_named() {
+    let gravity = Gravity {
+        uniform: [1024.0, 0.0],
+        central: None,
+    };
+    let parameters = Parameters { gravity, ..units() };
+    // Half a metre per second and kick, two kicks a step: 2048 m/s at kick number n + 1 of particle 1,
+    // and one kick later of particle 0.
+    for n in 0..6u32 {
+        let speed = 2047.75 - 0.5 * f64::from(n);
+        let recipe = dust(parameters, &[[speed - 0.5, 0.0], [speed, 0.0]]);
+        let expected = fault(FaultKind::VelocityRange, 1, u64::from(n / 2 + 1));
+        assert_eq!(fault_of::<Fixed, 2>(&recipe, 10), expected, "{n}");
+    }
+}
+
+#[test]
 fn a_velocity_that_leaves_the_range_is_named() {
     let gravity = Gravity {
         uniform: [1024.0, 0.0],
