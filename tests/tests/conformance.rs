@@ -148,6 +148,26 @@ fn a_crowd_and_a_crowd_that_is_just_allowed() {
     }
 }
 
+#[test]
+fn a_channel_longer_than_a_meeting_can_name() {
+    // 30,000 columns: four particles of a strip above one another are 120,000, more than 16 bits count.
+    let scene = scene_of(
+        "particle_spacing = 0.1\nend = 1.0\ntime_step = 1e-5\nfluid.sound_speed = 10\n\
+         wall_model = \"none\"\ndensity_correction = \"none\"\n[[region]]\nkind = \"fluid\"\n\
+         shape.rectangle = { min = [0, 0], max = [3000, 0.8] }\n",
+    );
+    let mut initial = scene.initial_state().unwrap();
+    let mut generator = Generator::new(6);
+    for x in &mut initial.fluid {
+        x[0] += 0.02 * generator.signed();
+        x[1] += 0.02 * generator.signed();
+    }
+    let reference = digests(&scene, &initial, threads(2), &[2]);
+    assert!(reference.is_ok(), "{reference:?}");
+    let found = digests(&scene, &initial, fast(Backend::best(), 2), &[2]);
+    assert_eq!(found, reference);
+}
+
 fn cloud_scene(dimension: usize) -> Scene {
     let shape = if dimension == 2 { "rectangle" } else { "box" };
     let (min, max) = ([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]);

@@ -9,7 +9,8 @@
 //! A sweep does not look at single terms for their range; instead the pass bounds all of them from
 //! the largest words ([`PairPass::bound`]). Where the bound does not hold, or some particle has more
 //! candidates than an integer sum is guaranteed to hold, the sum is taken by the plain traversal of
-//! the core, which decides exactly and names the particle. The same for floating-point states.
+//! the core, which decides exactly and names the particle. The same for floating-point states, and
+//! for strips of more particles than a list can name (16,000 in the plane).
 
 mod awake;
 mod backend;
