@@ -98,6 +98,56 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
         self.model.forces()
     }
 
+    /// Fills a frame with the particles at these places, or as they are stored.
+    fn fill(&mut self, frame: &mut Frame, places: Option<&[usize]>) -> Result<(), Fault> {
+        if !self.storage.progress.density_is_current() {
+            self.wake();
+            self.with_executor(UpdateDensity)?;
+        }
+        let p = *self.forces().parameters();
+        let system = self.storage.system();
+        let (state, density) = (&system.state, &system.scratch.density);
+        frame.dimension = D;
+        frame.step = system.progress.step;
+        frame.particle_mass = p.mass;
+        frame.resize(state.len());
+        let (lq, sq) = (p.scale.length_quantum(), p.scale.speed_quantum());
+        let density_quantum = p.scale.density_quantum();
+        let stiffness = p.sound_speed * p.sound_speed * p.reference_density;
+        frame.wall_position.clear();
+        let walls = system.walls.position.iter().map(|x| si(x, lq));
+        frame.wall_position.extend(walls);
+        // Pictures are taken while a run goes on, many a second: every thread takes its part.
+        let lists = (
+            frame.id.par_chunks_mut(PART),
+            frame.position.par_chunks_mut(PART),
+            frame.velocity.par_chunks_mut(PART),
+            frame.density.par_chunks_mut(PART),
+            frame.pressure.par_chunks_mut(PART),
+        );
+        let fill = || {
+            let parts = lists.into_par_iter().enumerate();
+            parts.for_each(
+                |(part, (ids, positions, velocities, densities, pressures))| {
+                    let first = PART * part;
+                    let range = first..first + ids.len();
+                    copy(ids, &range, places, |i| state.id[i]);
+                    copy(positions, &range, places, |i| si(&state.position[i], lq));
+                    copy(velocities, &range, places, |i| si(&state.velocity[i], sq));
+                    copy(densities, &range, places, |i| {
+                        density[i].quanta::<f64>() * density_quantum
+                    });
+                    let equation: StateEquation = p.state_equation;
+                    for (pressure, rho) in pressures.iter_mut().zip(densities) {
+                        *pressure = stiffness * equation.pressure(*rho / p.reference_density);
+                    }
+                },
+            );
+        };
+        on_threads(&self.executor, fill);
+        Ok(())
+    }
+
     /// Places of the particles in id order.
     fn places(&mut self) -> Vec<usize> {
         let system = self.storage.system();
@@ -187,15 +237,18 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
         let fields = state.fields().into_iter().enumerate().map(|(f, field)| {
             let components = field.components;
             let mut words = vec![0; places.len() * components];
-            words
-                .par_chunks_exact_mut(components)
-                .with_min_len(PART)
-                .zip(&places)
-                .for_each(|(words, &place)| {
-                    for (c, word) in words.iter_mut().enumerate() {
-                        *word = state.word(f, c, place);
-                    }
-                });
+            let copy = || {
+                words
+                    .par_chunks_exact_mut(components)
+                    .with_min_len(PART)
+                    .zip(&places)
+                    .for_each(|(words, &place)| {
+                        for (c, word) in words.iter_mut().enumerate() {
+                            *word = state.word(f, c, place);
+                        }
+                    });
+            };
+            on_threads(&self.executor, copy);
             (field.name.to_owned(), words)
         });
         SavedState {
@@ -268,49 +321,29 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
     }
 
     fn frame(&mut self) -> Result<Frame, Fault> {
-        if !self.storage.progress.density_is_current() {
-            self.wake();
-            self.with_executor(UpdateDensity)?;
-        }
         let places = self.places();
-        let p = *self.forces().parameters();
-        let system = self.storage.system();
-        let (lq, sq) = (p.scale.length_quantum(), p.scale.speed_quantum());
-        let density_quantum = p.scale.density_quantum();
-        let state = &system.state;
-        // Pictures are taken while a run goes on, many a second: every thread takes its part.
-        let density: Vec<f64> = places
-            .par_iter()
-            .with_min_len(PART)
-            .map(|&i| system.scratch.density[i].quanta::<f64>() * density_quantum)
-            .collect();
-        let stiffness = p.sound_speed * p.sound_speed * p.reference_density;
-        let pressure = |rho: &f64| {
-            let equation: StateEquation = p.state_equation;
-            stiffness * equation.pressure(rho / p.reference_density)
-        };
-        let of = |value: &(dyn Fn(usize) -> [f64; 3] + Sync)| -> Vec<[f64; 3]> {
-            let places = places.par_iter().with_min_len(PART);
-            places.map(|&i| value(i)).collect()
-        };
-        Ok(Frame {
-            dimension: D,
-            step: system.progress.step,
-            time: 0.0,
-            elapsed: 0.0,
-            way_back: false,
-            particle_mass: p.mass,
-            id: (0..state.len() as u64).collect(),
-            position: of(&|i| si(&state.position[i], lq)),
-            velocity: of(&|i| si(&state.velocity[i], sq)),
-            pressure: density
-                .par_iter()
-                .with_min_len(PART)
-                .map(pressure)
-                .collect(),
-            density,
-            wall_position: system.walls.position.iter().map(|x| si(x, lq)).collect(),
-        })
+        let mut frame = Frame::default();
+        self.fill(&mut frame, Some(&places))?;
+        Ok(frame)
+    }
+
+    fn picture(&mut self, frame: &mut Frame) -> Result<(), Fault> {
+        self.fill(frame, None)
+    }
+
+    fn backend(&self) -> String {
+        match &self.executor {
+            AnyExecutor::Fast(exec) => exec.backend_at_work(),
+            _ => "serial".to_owned(),
+        }
+    }
+
+    fn pool(&self) -> Option<Rayon> {
+        match &self.executor {
+            AnyExecutor::Serial(_) => None,
+            AnyExecutor::Rayon(exec) => Some(exec.clone()),
+            AnyExecutor::Fast(exec) => Some(exec.threads().clone()),
+        }
     }
 
     fn flip_last_bit(&mut self, id: u64) {
@@ -319,6 +352,37 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
             let x = &mut system.state.position[place][0];
             *x = A::Length::from_word(x.to_word() ^ 1);
             system.progress.invalidate();
+        }
+    }
+}
+
+/// Does what is done in parallel on the executor's threads.
+fn on_threads(executor: &AnyExecutor, work: impl FnOnce() + Send) {
+    match executor {
+        AnyExecutor::Serial(_) => work(),
+        AnyExecutor::Rayon(exec) => exec.install(work),
+        AnyExecutor::Fast(exec) => exec.install(work),
+    }
+}
+
+/// What is at these places of a list, or at the same ones.
+#[inline]
+fn copy<T>(
+    to: &mut [T],
+    range: &std::ops::Range<usize>,
+    places: Option<&[usize]>,
+    of: impl Fn(usize) -> T,
+) {
+    match places {
+        Some(places) => {
+            for (to, &place) in to.iter_mut().zip(&places[range.clone()]) {
+                *to = of(place);
+            }
+        }
+        None => {
+            for (to, place) in to.iter_mut().zip(range.clone()) {
+                *to = of(place);
+            }
         }
     }
 }

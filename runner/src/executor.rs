@@ -12,6 +12,7 @@ use loschmidt_core::pairs::{PairPass, Sources, accumulate, read, separation};
 use loschmidt_core::{Arithmetic, Executor, Fault, FaultKind, Serial};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
+use std::sync::Arc;
 
 /// Fewest particles worth a task of their own: about 50 µs of work.
 const GRAIN: usize = 128;
@@ -19,10 +20,10 @@ const GRAIN: usize = 128;
 /// Length of the list of neighbours; a longer one is summed in pieces.
 const LIST: usize = 128;
 
-/// rayon, on a pool of its own.
-#[derive(Debug)]
+/// rayon, on a pool of its own; a clone is a handle to the same pool.
+#[derive(Clone, Debug)]
 pub struct Rayon {
-    pool: rayon::ThreadPool,
+    pool: Arc<rayon::ThreadPool>,
 }
 
 impl Rayon {
@@ -35,7 +36,15 @@ impl Rayon {
             .num_threads(threads.get())
             .thread_name(|i| format!("sph-{i}"))
             .build()?;
-        Ok(Self { pool })
+        Ok(Self {
+            pool: Arc::new(pool),
+        })
+    }
+
+    /// Number of threads.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.pool.current_num_threads()
     }
 
     /// Runs `work` on the pool, so that what it does in parallel need not be handed over each time.

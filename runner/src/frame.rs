@@ -10,7 +10,8 @@
 
 use std::io;
 
-/// Picture of a synchronised state, the fluid in the order of its ids.
+/// Picture of a synchronised state, the fluid in the order of its ids; in that of storage where it is for
+/// the eye alone ([`crate::Player::picture`]).
 ///
 /// The fluid's lists have one entry per particle, all in the same order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,7 +28,7 @@ pub struct Frame {
     pub way_back: bool,
     /// Mass of a fluid particle in kg (2D: of a metre of depth).
     pub particle_mass: f64,
-    /// Ids of the fluid, rising.
+    /// Ids of the fluid.
     pub id: Vec<u64>,
     /// Positions of the fluid in m; z = 0 in 2D.
     pub position: Vec<[f64; 3]>,
@@ -42,6 +43,15 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// Room for so many particles of the fluid.
+    pub(crate) fn resize(&mut self, particles: usize) {
+        self.id.resize(particles, 0);
+        self.position.resize(particles, [0.0; 3]);
+        self.velocity.resize(particles, [0.0; 3]);
+        self.density.resize(particles, 0.0);
+        self.pressure.resize(particles, 0.0);
+    }
+
     /// Number of fluid and wall particles together.
     pub fn particles(&self) -> usize {
         self.id.len() + self.wall_position.len()

@@ -4,6 +4,7 @@
 //! forward, or backward after a turn, when every velocity is reversed. **Going back is integrating
 //! back**; no history is stored. Dashboard, window and headless run are faces of it.
 
+use crate::executor::Rayon;
 use crate::frame::Frame;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::{InitialState, Scene};
@@ -359,17 +360,45 @@ impl Player {
         self.simulation.release();
     }
 
+    /// What the pair sums so far were made with: an instruction set, `serial` for the plain traversal, or
+    /// both.
+    #[must_use]
+    pub fn backend(&self) -> String {
+        self.simulation.backend()
+    }
+
+    /// The threads that take the steps, where there are others than the caller's.
+    #[must_use]
+    pub fn pool(&self) -> Option<Rayon> {
+        self.simulation.pool()
+    }
+
     /// A picture of the present state.
     ///
     /// # Errors
     /// As a step.
     pub fn frame(&mut self) -> Result<Frame, Fault> {
         let mut frame = self.simulation.frame()?;
+        self.date(&mut frame);
+        Ok(frame)
+    }
+
+    /// The same in the memory of an earlier one, its particles as they are stored: by their ids in no
+    /// order.
+    ///
+    /// # Errors
+    /// As a step; the frame is of no use then.
+    pub fn picture(&mut self, frame: &mut Frame) -> Result<(), Fault> {
+        self.simulation.picture(frame)?;
+        self.date(frame);
+        Ok(())
+    }
+
+    fn date(&self, frame: &mut Frame) {
         let dt = self.scene.time_step();
         frame.step = self.position.unsigned_abs();
         frame.time = self.time();
         frame.elapsed = self.steps_taken() as f64 * dt;
         frame.way_back = self.arrow == Arrow::Backward;
-        Ok(frame)
     }
 }

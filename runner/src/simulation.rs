@@ -1,7 +1,7 @@
 //! A simulation without type parameters: any dimension, arithmetic, model and executor.
 
 use crate::engine::Engine;
-use crate::executor::ExecutorKind;
+use crate::executor::{ExecutorKind, Rayon};
 use crate::fast::Backend;
 use crate::frame::Frame;
 use crate::saved::{ArithmeticKind, SavedState};
@@ -41,16 +41,6 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The instruction set of the pair sums, or `serial` where they are summed by the plain
-    /// traversal: in the other executors, and in floating point, whose sums have an order.
-    #[must_use]
-    pub fn backend_at_work(&self) -> &'static str {
-        match (self.executor, self.arithmetic) {
-            (ExecutorKind::Fast, ArithmeticKind::Fixed) => self.backend.name(),
-            _ => "serial",
-        }
-    }
-
     /// Threads that the executor uses: one if it is serial.
     #[must_use]
     pub fn threads_at_work(&self) -> usize {
@@ -127,9 +117,20 @@ pub trait Simulation: Send {
     /// # Errors
     /// As a step.
     fn frame(&mut self) -> Result<Frame, Fault>;
+    /// The same with the particles as they are stored, in the memory of an earlier frame: what is left
+    /// to do for a picture when many a second are drawn.
+    ///
+    /// # Errors
+    /// As a step.
+    fn picture(&mut self, frame: &mut Frame) -> Result<(), Fault>;
     /// Gives back memory that only steps need. The next step makes it anew, at the cost of a step or two;
     /// no bit depends on it.
     fn release(&mut self);
+    /// What the pair sums so far were made with: an instruction set, `serial` for the plain traversal (in
+    /// the other executors, and in floating point, whose sums have an order), or both.
+    fn backend(&self) -> String;
+    /// The threads that take the steps, where there are others than the caller's.
+    fn pool(&self) -> Option<Rayon>;
     /// Flips the lowest bit of the first coordinate of the particle with this id.
     fn flip_last_bit(&mut self, id: u64);
 }

@@ -1,15 +1,16 @@
 //! What watching costs: steps a second of a scene that is played as fast as it goes, side by side
-//! headless, without pictures, and with pictures of 1280 x 720 pixels at 60 a second.
+//! headless, without pictures, with frames handed over 60 times a second, and with pictures of
+//! 1280 x 720 pixels drawn of them.
 //!
 //!     cargo bench -p loschmidt-viewer --bench live [SPACING] [SECONDS]
 //!
-//! The pictures are those of the window, drawn and copied into a buffer like the surface's; what an
-//! X server does with them is not in it.
+//! The pictures are those of the window; what an X server does with them is not in it.
 
 use loschmidt_runner::deck::{Command, Opening, Report, Wishes};
+use loschmidt_runner::run::{Plan, Row};
 use loschmidt_runner::scene::{load, resolve};
 use loschmidt_runner::{Deck, Frame, Options, Player};
-use loschmidt_viewer::{History, Home, Look, Pane, draw};
+use loschmidt_viewer::{History, Home, Look, Pane, Raster, Rgb, draw_on};
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
@@ -29,8 +30,8 @@ fn main() {
     let scene = resolve("dam-break").expect("a scene of the catalogue");
     let scene = load(&scene, &[format!("particle_spacing={spacing}")]).expect("a scene");
     println!(
-        "{:>14} {:>14} {:>14} {:>7} {:>10}",
-        "headless", "unwatched", "watched", "ratio", "frames/s"
+        "{:>14} {:>14} {:>14} {:>14} {:>7} {:>10}",
+        "headless", "unwatched", "handed over", "watched", "ratio", "frames/s"
     );
     let mut ratios = Vec::new();
     for _ in 0..ROUNDS {
@@ -44,11 +45,13 @@ fn main() {
             recorded: None,
             pace: Some(1e6),
         };
-        let (unwatched, _) = played(opening(), time, false);
-        let (watched, frames) = played(opening(), time, true);
+        let (unwatched, _) = played(opening(), time, Watch::No);
+        let (handed, _) = played(opening(), time, Watch::Frames);
+        let (watched, frames) = played(opening(), time, Watch::Pictures);
         let ratio = watched / headless;
         println!(
-            "{headless:>9.1} st/s {unwatched:>9.1} st/s {watched:>9.1} st/s {:>5.1} % {frames:>10.1}",
+            "{headless:>9.1} st/s {unwatched:>9.1} st/s {handed:>9.1} st/s {watched:>9.1} st/s \
+             {:>5.1} % {frames:>10.1}",
             100.0 * ratio
         );
         ratios.push(ratio);
@@ -58,18 +61,27 @@ fn main() {
     println!("median {median:.1} % of the headless throughput");
 }
 
-/// Steps a second.
+/// What is done with the frames.
+#[derive(PartialEq)]
+enum Watch {
+    No,
+    Frames,
+    Pictures,
+}
+
+/// Steps a second, measured at every row as a run does.
 fn headless(player: &mut Player, time: Duration) -> f64 {
-    let piece = (500_000 / player.home().id.len() as u64).max(1);
+    let every = Plan::of(player.scene()).row_every;
     let began = Instant::now();
     while began.elapsed() < time {
-        player.advance(piece).expect("numbers in range");
+        player.advance(every).expect("numbers in range");
+        Row::measure(player, 1).expect("numbers in range");
     }
     player.steps_taken() as f64 / began.elapsed().as_secs_f64()
 }
 
 /// Steps and pictures a second.
-fn played(opening: Opening, time: Duration, watched: bool) -> (f64, f64) {
+fn played(opening: Opening, time: Duration, watch: Watch) -> (f64, f64) {
     let (sender, inbox) = channel();
     let wishes = Wishes {
         frames: FRAMES,
@@ -81,7 +93,7 @@ fn played(opening: Opening, time: Duration, watched: bool) -> (f64, f64) {
     })
     .expect("a thread");
     let mut shown: Option<(Home, History, Frame)> = None;
-    let mut surface = vec![0; SIZE.0 * SIZE.1];
+    let mut raster = Raster::new(SIZE.0, SIZE.1, Rgb(0));
     let look = Look::default();
     let (mut began, mut first, mut pictures) = (None, 0, 0);
     let steps = loop {
@@ -103,13 +115,13 @@ fn played(opening: Opening, time: Duration, watched: bool) -> (f64, f64) {
                 let Some((home, history, frame)) = &mut shown else {
                     continue;
                 };
-                *frame = shot.frame;
-                if watched {
+                let old = std::mem::replace(frame, shot.frame);
+                deck.send(Command::Reuse(Box::new(old)));
+                if watch == Watch::Pictures {
                     let panes = [Pane::new(frame, history)];
-                    let raster = draw(&panes, home, &look, SIZE.0, SIZE.1);
-                    surface.copy_from_slice(raster.pixels());
+                    deck.install(|| draw_on(&mut raster.draw(), &panes, home, &look, SIZE.1));
                     pictures += 1;
-                } else {
+                } else if watch == Watch::No {
                     // Two pictures are enough to count the steps between them.
                     std::thread::sleep(time);
                 }

@@ -181,6 +181,7 @@ impl Projection {
 
     /// A point (m) on the screen; `None` behind the camera.
     #[must_use]
+    #[inline]
     pub fn project(&self, x: [f64; 3]) -> Option<Projected> {
         let p = DVec3::from_array(x) - self.centre;
         match self.lens {

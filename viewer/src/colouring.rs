@@ -186,7 +186,32 @@ impl<'a> Painter<'a> {
             let id = frame.id.get(place).map_or(place, |&id| id as usize);
             return colours.get(id).copied().unwrap_or_default();
         }
-        let value = self.colouring.value(frame, home, place);
+        self.of(self.colouring.value(frame, home, place))
+    }
+
+    /// Calls `put` with every one of these places and its colour. What is asked once for all of them is
+    /// not asked for each.
+    pub fn each(
+        &self,
+        frame: &Frame,
+        home: &Home,
+        places: std::ops::Range<usize>,
+        mut put: impl FnMut(usize, Rgb),
+    ) {
+        match self.colouring {
+            Colouring::Speed => {
+                places.for_each(|place| put(place, self.of(length(frame.velocity[place]))));
+            }
+            Colouring::Density => {
+                places.for_each(|place| put(place, self.of(frame.density[place])))
+            }
+            _ => places.for_each(|place| put(place, self.colour(frame, home, place))),
+        }
+    }
+
+    /// The colour of a number.
+    #[inline]
+    fn of(&self, value: f64) -> Rgb {
         // The conversion takes what is below, and NaN, to 0.
         let n = ((value - self.low) * self.factor) as usize;
         self.colours[n.min(self.colours.len() - 1)]

@@ -3,6 +3,7 @@
 //! The panel stands to the right of the fields or below them, where it leaves them more room. Sizes follow from
 //! the em, which follows from the size of the picture: readable from 320 x 240 to 4K.
 
+use crate::Rgb;
 use crate::camera::View;
 use crate::colour::{Colormap, Theme};
 use crate::colouring::Colouring;
@@ -10,9 +11,10 @@ use crate::field;
 use crate::history::History;
 use crate::home::Home;
 use crate::plot;
-use crate::raster::{Mask, Raster, Rect};
+use crate::raster::{Mask, Pixels, Raster, Rect};
 use crate::text::{self, Style, Weight};
 use loschmidt_runner::Frame;
+use std::cell::RefCell;
 
 /// How a frame is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -161,22 +163,30 @@ fn side_by_side(all: Rect, panes: usize) -> Vec<Rect> {
 /// The panel shows time, arrow and energy of the first.
 #[must_use]
 pub fn draw(panes: &[Pane<'_>], home: &Home, look: &Look, width: usize, height: usize) -> Raster {
-    let mut raster = Raster::new(width, height, look.theme.background);
-    let layout = Layout::new(home, look, panes.len(), width, height);
+    let mut raster = Raster::new(width, height, Rgb(0));
+    draw_on(&mut raster.draw(), panes, home, look, height);
+    raster
+}
+
+/// The same into the upper `height` rows of a raster, over whatever is there.
+///
+/// What of the panel is as in the last picture drawn by this thread is copied from it.
+pub fn draw_on(
+    raster: &mut Pixels<'_>,
+    panes: &[Pane<'_>],
+    home: &Home,
+    look: &Look,
+    height: usize,
+) {
+    let layout = Layout::new(home, look, panes.len(), raster.width(), height);
     for (pane, &rect) in panes.iter().zip(&layout.fields) {
         let own = pane.colouring.map(|colouring| Look {
             colouring: colouring.clone(),
             ..look.clone()
         });
-        field::paint(
-            &mut raster,
-            rect,
-            pane.frame,
-            home,
-            own.as_ref().unwrap_or(look),
-        );
+        field::paint(raster, rect, pane.frame, home, own.as_ref().unwrap_or(look));
         if layout.panel.is_some() {
-            label(&mut raster, rect, pane.label, look, layout.em);
+            label(raster, rect, pane.label, look, layout.em);
         }
     }
     let theme = &look.theme;
@@ -186,7 +196,6 @@ pub fn draw(panes: &[Pane<'_>], home: &Home, look: &Look, width: usize, height: 
         raster.fill(line, theme.rule, 255);
     }
     if let (Some(panel), Some(first)) = (layout.panel, panes.first()) {
-        raster.fill(panel, theme.panel, 255);
         let parts = Parts {
             panes,
             first,
@@ -194,19 +203,12 @@ pub fn draw(panes: &[Pane<'_>], home: &Home, look: &Look, width: usize, height: 
             look,
             em: layout.em,
         };
-        if layout.beside {
-            raster.fill(Rect { width: 1, ..panel }, theme.rule, 255);
-            parts.column(&mut raster, panel);
-        } else {
-            raster.fill(Rect { height: 1, ..panel }, theme.rule, 255);
-            parts.bar(&mut raster, panel);
-        }
+        parts.paint(raster, panel, layout.beside);
     }
-    raster
 }
 
 /// The name of a run in the upper corner of its field.
-fn label(raster: &mut Raster, rect: Rect, text: &str, look: &Look, em: usize) {
+fn label(raster: &mut Pixels<'_>, rect: Rect, text: &str, look: &Look, em: usize) {
     let style = Style {
         size: em,
         weight: Weight::SemiBold,
@@ -215,6 +217,23 @@ fn label(raster: &mut Raster, rect: Rect, text: &str, look: &Look, em: usize) {
     let text = text::fitted(&style, text, rect.width.saturating_sub(em) as f64);
     let middle = rect.x as f64 + 0.5 * rect.width as f64;
     text::write_around(raster, &style, middle, (rect.y + em + em / 2) as i64, &text);
+}
+
+/// All that the panel depends on but for its clock.
+#[derive(PartialEq)]
+struct PanelKey {
+    size: (usize, usize),
+    beside: bool,
+    em: usize,
+    name: String,
+    range: [f64; 2],
+    look: Look,
+    histories: Vec<(String, u64)>,
+}
+
+thread_local! {
+    /// The last panel, without its clock.
+    static PANEL: RefCell<Option<(PanelKey, Raster)>> = const { RefCell::new(None) };
 }
 
 /// The parts of the panel.
@@ -227,6 +246,77 @@ struct Parts<'a> {
 }
 
 impl Parts<'_> {
+    /// The whole panel.
+    fn paint(&self, raster: &mut Pixels<'_>, panel: Rect, beside: bool) {
+        let look = self.look;
+        let key = PanelKey {
+            size: (panel.width, panel.height),
+            beside,
+            em: self.em,
+            name: self.home.name.clone(),
+            range: look.range.unwrap_or(look.colouring.range(self.home)),
+            look: Look {
+                view: View::default(),
+                turn: None,
+                ..look.clone()
+            },
+            histories: self
+                .panes
+                .iter()
+                .map(|pane| (pane.label.to_owned(), pane.history.version()))
+                .collect(),
+        };
+        let theme = &look.theme;
+        PANEL.with_borrow_mut(|last| match last {
+            Some((known, drawn)) if *known == key => raster.place(drawn, panel.x, panel.y),
+            _ => {
+                raster.fill(panel, theme.panel, 255);
+                let edge = if beside {
+                    Rect { width: 1, ..panel }
+                } else {
+                    Rect { height: 1, ..panel }
+                };
+                raster.fill(edge, theme.rule, 255);
+                if beside {
+                    self.column(raster, panel);
+                } else {
+                    self.bar(raster, panel);
+                }
+                *last = Some((key, raster.part(panel)));
+            }
+        });
+        self.clock(raster, self.clock_place(panel, beside));
+    }
+
+    /// Where the time is: below the title.
+    fn clock_place(&self, panel: Rect, beside: bool) -> Rect {
+        let inner = self.inner(panel, beside);
+        let y = inner.y + self.title_height();
+        if beside {
+            return Rect::new(inner.x, y, inner.width, 4 * self.em);
+        }
+        let height = inner.height.saturating_sub(self.title_height());
+        Rect::new(inner.x, y, self.clock_width(inner), height)
+    }
+
+    fn clock_width(&self, inner: Rect) -> usize {
+        (12 * self.em).min(inner.width)
+    }
+
+    /// The panel without its margins.
+    fn inner(&self, panel: Rect, beside: bool) -> Rect {
+        let em = self.em;
+        if beside {
+            return panel.shrunk(em);
+        }
+        Rect::new(
+            panel.x + em,
+            panel.y + em / 2,
+            panel.width.saturating_sub(2 * em),
+            panel.height.saturating_sub(em),
+        )
+    }
+
     fn style(&self, size: usize) -> Style {
         Style {
             size,
@@ -244,14 +334,12 @@ impl Parts<'_> {
         !matches!(self.look.colouring, Colouring::Picture(_))
     }
 
-    /// From top to bottom: title, time, plots, legend.
-    fn column(&self, raster: &mut Raster, panel: Rect) {
+    /// From top to bottom: title, room for the time, plots, legend.
+    fn column(&self, raster: &mut Pixels<'_>, panel: Rect) {
         let em = self.em;
-        let inner = panel.shrunk(em);
-        let mut y = inner.y;
-        y += self.title(raster, Rect { y, ..inner });
-        self.clock(raster, Rect::new(inner.x, y, inner.width, 4 * em));
-        y += 5 * em;
+        let inner = self.inner(panel, true);
+        self.title(raster, inner);
+        let y = inner.y + self.title_height() + 5 * em;
         let mut bottom = inner.y + inner.height;
         if self.has_legend() {
             let height = 7 * em / 2;
@@ -271,25 +359,13 @@ impl Parts<'_> {
         }
     }
 
-    /// From left to right: time and title, plots, legend.
-    fn bar(&self, raster: &mut Raster, panel: Rect) {
+    /// From left to right: title and room for the time, plots, legend.
+    fn bar(&self, raster: &mut Pixels<'_>, panel: Rect) {
         let em = self.em;
-        let inner = Rect::new(
-            panel.x + em,
-            panel.y + em / 2,
-            panel.width.saturating_sub(2 * em),
-            panel.height.saturating_sub(em),
-        );
-        let clock = (12 * em).min(inner.width);
-        let used = self.title(
-            raster,
-            Rect {
-                width: clock,
-                ..inner
-            },
-        );
-        let height = inner.height.saturating_sub(used);
-        self.clock(raster, Rect::new(inner.x, inner.y + used, clock, height));
+        let inner = self.inner(panel, false);
+        let clock = self.clock_width(inner);
+        let width = clock;
+        self.title(raster, Rect { width, ..inner });
         let mut left = inner.x + clock + em;
         let mut right = inner.x + inner.width;
         if self.has_legend() && right.saturating_sub(left) >= 8 * em {
@@ -312,8 +388,17 @@ impl Parts<'_> {
         }
     }
 
-    /// Title and caption; returns their height.
-    fn title(&self, raster: &mut Raster, rect: Rect) -> usize {
+    /// Height of title and caption.
+    fn title_height(&self) -> usize {
+        let caption = match self.look.caption.is_empty() {
+            true => 0,
+            false => self.small() * 7 / 5,
+        };
+        self.em * 6 / 5 + caption + self.em / 2
+    }
+
+    /// Title and caption.
+    fn title(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let em = self.em;
         let title = self.look.title.as_deref().unwrap_or(&self.home.name);
         let style = Style {
@@ -332,11 +417,10 @@ impl Parts<'_> {
             y += self.small() * 7 / 5;
             text::write(raster, &style, rect.x as f64, y as i64, &caption);
         }
-        y + em / 2 - rect.y
     }
 
     /// The arrow of time on a dial, the time, and which way it runs.
-    fn clock(&self, raster: &mut Raster, rect: Rect) {
+    fn clock(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let theme = &self.look.theme;
         let frame = self.first.frame;
         let turn = self
@@ -371,12 +455,12 @@ impl Parts<'_> {
         text::write(raster, &small, x, y, way);
     }
 
-    fn energy(&self, raster: &mut Raster, rect: Rect) {
+    fn energy(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let history = self.first.history;
         plot::energy(raster, rect, history, &self.look.theme, self.small());
     }
 
-    fn entropy(&self, raster: &mut Raster, rect: Rect) {
+    fn entropy(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let runs: Vec<(&str, &History)> = self
             .panes
             .iter()
@@ -386,7 +470,7 @@ impl Parts<'_> {
     }
 
     /// The colour map between its numbers, with title and unit.
-    fn legend(&self, raster: &mut Raster, rect: Rect) {
+    fn legend(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let colouring = &self.look.colouring;
         let unit = colouring.unit();
         let style = self.style(self.small());
@@ -427,7 +511,7 @@ impl Parts<'_> {
 
 /// A dial with one hand: to the right is forward, to the left backward.
 fn dial(
-    raster: &mut Raster,
+    raster: &mut Pixels<'_>,
     centre: [f64; 2],
     radius: f64,
     turn: f64,

@@ -1,6 +1,7 @@
 //! Energy and entropy along both legs: what the plots show.
 
 use loschmidt_runner::run::Row;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A moment of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,10 +51,30 @@ impl From<&Row> for Point {
 }
 
 /// The moments of a run so far, in the order they were lived through.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct History {
     points: Vec<Point>,
     span: f64,
+    /// Of all histories, only equal ones have the same.
+    version: u64,
+}
+
+/// A number that no history has yet.
+fn new_version() -> u64 {
+    static NEXT: AtomicU64 = AtomicU64::new(0);
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
+
+impl PartialEq for History {
+    fn eq(&self, other: &Self) -> bool {
+        self.points == other.points && self.span == other.span
+    }
+}
+
+impl Default for History {
+    fn default() -> Self {
+        Self::new(0.0)
+    }
 }
 
 impl History {
@@ -64,6 +85,7 @@ impl History {
         Self {
             points: Vec::new(),
             span,
+            version: new_version(),
         }
     }
 
@@ -79,6 +101,12 @@ impl History {
     pub fn push(&mut self, point: Point) {
         self.span = self.span.max(point.time);
         self.points.push(point);
+        self.version = new_version();
+    }
+
+    /// A number that changes with every moment: histories with the same one are equal.
+    pub(crate) fn version(&self) -> u64 {
+        self.version
     }
 
     /// The moments.
@@ -100,6 +128,7 @@ impl History {
         Self {
             points: self.points[..end].to_vec(),
             span: self.span,
+            version: new_version(),
         }
     }
 }

@@ -22,6 +22,7 @@
 
 #![forbid(unsafe_code)]
 
+mod bands;
 pub mod camera;
 pub mod colour;
 pub mod colouring;
@@ -43,11 +44,11 @@ pub mod window;
 pub use camera::{Projection, View};
 pub use colour::{Colormap, Rgb, Theme};
 pub use colouring::Colouring;
-pub use draw::{Look, Pane, draw};
+pub use draw::{Look, Pane, draw, draw_on};
 pub use field::field;
 pub use history::{History, Point};
 pub use home::Home;
 pub use keys::{Action, Key};
 pub use picture::Picture;
-pub use raster::{Raster, Rect};
+pub use raster::{Pixels, Raster, Rect};
 pub use track::Track;

@@ -4,7 +4,7 @@
 use crate::colour::{Rgb, Theme};
 use crate::colouring::round_number;
 use crate::history::{History, Point};
-use crate::raster::{Mask, Raster, Rect};
+use crate::raster::{Mask, Pixels, Rect};
 use crate::text::{self, Style, Weight};
 
 /// A curve and what it is called.
@@ -49,7 +49,7 @@ pub struct Mark {
 
 impl Plot<'_> {
     /// Draws the plot into a rectangle; `em` is the size of its text in pixels.
-    pub fn draw(&self, raster: &mut Raster, rect: Rect, theme: &Theme, em: usize) {
+    pub fn draw(&self, raster: &mut Pixels<'_>, rect: Rect, theme: &Theme, em: usize) {
         let style = Style {
             size: em,
             weight: Weight::Medium,
@@ -91,7 +91,7 @@ impl Plot<'_> {
     }
 
     /// The line at the marked number, its text at one end.
-    fn mark(&self, raster: &mut Raster, axes: Rect, theme: &Theme, style: &Style) {
+    fn mark(&self, raster: &mut Pixels<'_>, axes: Rect, theme: &Theme, style: &Style) {
         let Some(mark) = &self.mark else {
             return;
         };
@@ -112,7 +112,7 @@ impl Plot<'_> {
     }
 
     /// The title and, where there is room, the names of the curves in their colours.
-    fn names(&self, raster: &mut Raster, rect: Rect, style: &Style) {
+    fn names(&self, raster: &mut Pixels<'_>, rect: Rect, style: &Style) {
         let baseline = (rect.y + style.size) as i64;
         let title = if self.unit.is_empty() {
             self.title.to_owned()
@@ -142,7 +142,14 @@ impl Plot<'_> {
         }
     }
 
-    fn curve(&self, raster: &mut Raster, axes: Rect, curve: &Curve<'_>, theme: &Theme, em: usize) {
+    fn curve(
+        &self,
+        raster: &mut Pixels<'_>,
+        axes: Rect,
+        curve: &Curve<'_>,
+        theme: &Theme,
+        em: usize,
+    ) {
         let [low, high] = self.range;
         let place = |point: &Point| {
             let value = (curve.value)(point)?;
@@ -170,7 +177,7 @@ impl Plot<'_> {
             axes.height + em,
         )
         .clipped(raster.width(), raster.height());
-        let draw = |raster: &mut Raster, points: &[Point], width: f64, alpha: u8| {
+        let draw = |raster: &mut Pixels<'_>, points: &[Point], width: f64, alpha: u8| {
             let mut mask = Mask::new(room);
             let mut last: Option<[f64; 2]> = None;
             for (n, point) in points.iter().enumerate() {
@@ -209,7 +216,7 @@ impl Plot<'_> {
 }
 
 /// Energies of a run: the kinetic, the potential one of gravity, and the total, in kJ or J.
-pub fn energy(raster: &mut Raster, rect: Rect, history: &History, theme: &Theme, em: usize) {
+pub fn energy(raster: &mut Pixels<'_>, rect: Rect, history: &History, theme: &Theme, em: usize) {
     let points = history.points();
     let largest = points
         .iter()
@@ -256,7 +263,7 @@ pub fn energy(raster: &mut Raster, rect: Rect, history: &History, theme: &Theme,
 
 /// Entropies of one or two runs, with the equilibrium value of the first.
 pub fn entropy(
-    raster: &mut Raster,
+    raster: &mut Pixels<'_>,
     rect: Rect,
     runs: &[(&str, &History)],
     theme: &Theme,

@@ -52,7 +52,7 @@ impl Rect {
 }
 
 /// A picture. A pixel is `0x00RRGGBB`, as windows take it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Raster {
     width: usize,
     height: usize,
@@ -127,27 +127,95 @@ impl Raster {
                 .collect(),
         })
     }
-    /// The part of the picture in this rectangle.
+    /// A copy of the part in this rectangle.
     #[must_use]
     pub fn part(&self, rect: Rect) -> Self {
-        let rect = rect.clipped(self.width, self.height);
-        let rows = (rect.y..rect.y + rect.height).flat_map(|y| {
-            let start = y * self.width + rect.x;
-            &self.pixels[start..start + rect.width]
-        });
-        Self {
-            width: rect.width,
-            height: rect.height,
-            pixels: rows.copied().collect(),
-        }
+        part(&self.pixels, self.rect(), rect)
     }
 
-    /// The same picture in a taller or lower one; new rows at the bottom are of this colour.
+    /// The pixels, to be drawn on.
     #[must_use]
-    pub fn extended(mut self, height: usize, colour: Rgb) -> Self {
-        self.pixels.resize(self.width * height, colour.0);
-        self.height = height;
-        self
+    pub fn draw(&mut self) -> Pixels<'_> {
+        Pixels {
+            width: self.width,
+            height: self.height,
+            pixels: &mut self.pixels,
+        }
+    }
+}
+
+fn part(pixels: &[u32], whole: Rect, rect: Rect) -> Raster {
+    let rect = rect.clipped(whole.width, whole.height);
+    let rows = (rect.y..rect.y + rect.height).flat_map(|y| {
+        let start = y * whole.width + rect.x;
+        &pixels[start..start + rect.width]
+    });
+    Raster {
+        width: rect.width,
+        height: rect.height,
+        pixels: rows.copied().collect(),
+    }
+}
+
+/// The pixels of a [`Raster`] or of a window, to be drawn on.
+#[derive(Debug)]
+pub struct Pixels<'a> {
+    width: usize,
+    height: usize,
+    pixels: &'a mut [u32],
+}
+
+impl<'a> Pixels<'a> {
+    /// Pixels row by row from the top left, as many as `width * height`; `None` if there are not.
+    #[must_use]
+    pub fn new(width: usize, height: usize, pixels: &'a mut [u32]) -> Option<Self> {
+        let fits = width.checked_mul(height) == Some(pixels.len());
+        fits.then_some(Self {
+            width,
+            height,
+            pixels,
+        })
+    }
+
+    /// Width in pixels.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Height in pixels.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// All of them.
+    #[must_use]
+    pub fn rect(&self) -> Rect {
+        Rect::new(0, 0, self.width, self.height)
+    }
+
+    /// The pixels, `0x00RRGGBB`, row by row.
+    pub(crate) fn all(&mut self) -> &mut [u32] {
+        self.pixels
+    }
+
+    /// A copy of the part in this rectangle.
+    #[must_use]
+    pub fn part(&self, rect: Rect) -> Raster {
+        part(self.pixels, self.rect(), rect)
+    }
+
+    /// Copies another picture to where its upper left corner is at `x`, `y`; what does not fit is
+    /// left out.
+    pub fn place(&mut self, other: &Raster, x: usize, y: usize) {
+        let rect = Rect::new(x, y, other.width, other.height).clipped(self.width, self.height);
+        for row in 0..rect.height {
+            let to = (rect.y + row) * self.width + rect.x;
+            let from = row * other.width;
+            self.pixels[to..to + rect.width]
+                .copy_from_slice(&other.pixels[from..from + rect.width]);
+        }
     }
 
     /// Mixes a colour into a pixel with a weight of `alpha` / 255; outside nothing happens.
@@ -166,7 +234,12 @@ impl Raster {
         let rect = rect.clipped(self.width, self.height);
         for y in rect.y..rect.y + rect.height {
             let start = y * self.width + rect.x;
-            for pixel in &mut self.pixels[start..start + rect.width] {
+            let row = &mut self.pixels[start..start + rect.width];
+            if alpha == 255 {
+                row.fill(colour.0);
+                continue;
+            }
+            for pixel in row {
                 *pixel = Rgb(*pixel).mix(colour, alpha).0;
             }
         }
@@ -282,7 +355,7 @@ impl Mask {
     }
 
     /// Paints a colour through the mask, at a weight of `alpha` / 255.
-    pub fn paint(&self, raster: &mut Raster, colour: Rgb, alpha: u8) {
+    pub fn paint(&self, raster: &mut Pixels<'_>, colour: Rgb, alpha: u8) {
         for (row, line) in self.coverage.chunks(self.rect.width.max(1)).enumerate() {
             for (column, &coverage) in line.iter().enumerate() {
                 if coverage > 0 {

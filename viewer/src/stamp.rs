@@ -24,6 +24,8 @@ pub(crate) struct Stamp {
     /// Places within a pixel that are told apart, per axis.
     places: i32,
     coverage: Vec<u8>,
+    /// The same numbers, of discs that are not shaded.
+    weights: Vec<f32>,
     shade: Vec<u8>,
 }
 
@@ -42,6 +44,7 @@ impl Stamp {
             half,
             places,
             coverage: Vec::new(),
+            weights: Vec::new(),
             shade: Vec::new(),
         };
         for py in 0..places {
@@ -49,6 +52,9 @@ impl Stamp {
                 let place = |p: i32| (f64::from(p) + 0.5) / f64::from(places);
                 stamp.add(radius, [place(px), place(py)], shaded);
             }
+        }
+        if !shaded {
+            stamp.weights = stamp.coverage.iter().map(|&c| f32::from(c)).collect();
         }
         stamp
     }
@@ -71,22 +77,29 @@ impl Stamp {
         2 * self.half as usize + 1
     }
 
-    /// Where in the tables the disc with its centre at `x`, `y` (in [`PARTS`] of a pixel) begins.
-    fn start(&self, x: i32, y: i32) -> usize {
+    /// The part of a table for the disc with its centre at `x`, `y` (in [`PARTS`] of a pixel).
+    #[inline]
+    fn part<'a, T>(&self, table: &'a [T], x: i32, y: i32) -> &'a [T] {
         let place = |p: i32| (p.rem_euclid(PARTS) * self.places / PARTS) as usize;
-        (place(y) * self.places as usize + place(x)) * self.size() * self.size()
+        let pixels = self.size() * self.size();
+        let start = (place(y) * self.places as usize + place(x)) * pixels;
+        &table[start..start + pixels]
     }
 
-    /// Coverage, 0 to 255, of a row of pixels, counted from the top of the disc.
-    pub fn coverage(&self, x: i32, y: i32, row: usize) -> &[u8] {
-        let start = self.start(x, y) + row * self.size();
-        &self.coverage[start..start + self.size()]
+    /// Coverage, 0 to 255, of the pixels, row by row from the top left of the disc.
+    pub fn coverage(&self, x: i32, y: i32) -> &[u8] {
+        self.part(&self.coverage, x, y)
+    }
+
+    /// The coverage as a number to be multiplied with.
+    #[inline]
+    pub fn weights(&self, x: i32, y: i32) -> &[f32] {
+        self.part(&self.weights, x, y)
     }
 
     /// Brightness, 0 to 255, of the same pixels.
-    pub fn shade(&self, x: i32, y: i32, row: usize) -> &[u8] {
-        let start = self.start(x, y) + row * self.size();
-        &self.shade[start..start + self.size()]
+    pub fn shade(&self, x: i32, y: i32) -> &[u8] {
+        self.part(&self.shade, x, y)
     }
 }
 

@@ -4,7 +4,7 @@
 //! change do not tremble.
 
 use crate::colour::Rgb;
-use crate::raster::Raster;
+use crate::raster::Pixels;
 use ab_glyph::{Font, FontRef, Glyph, GlyphId, point};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -100,7 +100,7 @@ pub fn width(style: &Style, text: &str) -> f64 {
 
 /// Writes a text that begins at `x` on the baseline `y`, pixels from the top left; returns where it
 /// ends.
-pub fn write(raster: &mut Raster, style: &Style, x: f64, y: i64, text: &str) -> f64 {
+pub fn write(raster: &mut Pixels<'_>, style: &Style, x: f64, y: i64, text: &str) -> f64 {
     let Some(font) = font(style.weight) else {
         return x;
     };
@@ -123,12 +123,12 @@ pub fn write(raster: &mut Raster, style: &Style, x: f64, y: i64, text: &str) -> 
 }
 
 /// Writes a text that ends at `x`.
-pub fn write_left_of(raster: &mut Raster, style: &Style, x: f64, y: i64, text: &str) {
+pub fn write_left_of(raster: &mut Pixels<'_>, style: &Style, x: f64, y: i64, text: &str) {
     write(raster, style, x - width(style, text), y, text);
 }
 
 /// Writes a text with its middle at `x`.
-pub fn write_around(raster: &mut Raster, style: &Style, x: f64, y: i64, text: &str) {
+pub fn write_around(raster: &mut Pixels<'_>, style: &Style, x: f64, y: i64, text: &str) {
     write(raster, style, x - 0.5 * width(style, text), y, text);
 }
 

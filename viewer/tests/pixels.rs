@@ -3,7 +3,8 @@
 use crate::home::after;
 use loschmidt_runner::Frame;
 use loschmidt_viewer::{
-    Colormap, Colouring, History, Home, Look, Pane, Picture, Raster, Rgb, Theme, draw, field, png,
+    Colormap, Colouring, History, Home, Look, Pane, Picture, Raster, Rect, Rgb, Theme, draw,
+    draw_on, field, png,
 };
 use std::fs::File;
 use std::io::BufReader;
@@ -140,4 +141,101 @@ fn more_discs_on_a_pixel_than_its_sums_hold_are_drawn_all_the_same() {
     };
     let drawn = field(&frame, &home, &look, 100, 100);
     assert!(drawn.pixels().contains(&0xff_ffff));
+}
+
+/// The particles of a frame in another order.
+fn shuffled(frame: &Frame) -> Frame {
+    let n = frame.id.len();
+    // A step that shares no factor with the number of particles visits all of them.
+    let step = (n / 3..).find(|&s| (2..=s).all(|d| n % d != 0 || s % d != 0));
+    let order: Vec<usize> = (0..n).map(|k| k * step.unwrap_or(1) % n).collect();
+    Frame {
+        id: order.iter().map(|&i| frame.id[i]).collect(),
+        position: order.iter().map(|&i| frame.position[i]).collect(),
+        velocity: order.iter().map(|&i| frame.velocity[i]).collect(),
+        density: order.iter().map(|&i| frame.density[i]).collect(),
+        pressure: order.iter().map(|&i| frame.pressure[i]).collect(),
+        ..frame.clone()
+    }
+}
+
+#[test]
+fn a_picture_depends_on_no_order_of_the_particles() {
+    let space = || after("dam-break-3d", &["particle_spacing=0.1"], 200);
+    for (frame, home, _) in [dam(), space()] {
+        let other = shuffled(&frame);
+        assert_ne!(frame.id, other.id);
+        for colouring in Colouring::MEASURED {
+            let look = Look {
+                colouring,
+                ..Look::default()
+            };
+            let [one, two] = [&frame, &other].map(|frame| field(frame, &home, &look, 200, 150));
+            assert!(one == two, "{}", look.colouring.name());
+        }
+    }
+}
+
+#[test]
+fn a_picture_drawn_over_another_one_is_the_same() {
+    let (frame, home, history) = dam();
+    let (start, _, _) = after("dam-break", &["particle_spacing=0.05"], 0);
+    let empty = History::new(home.span);
+    let look = Look::default();
+    let light = Look {
+        theme: Theme::LIGHT,
+        caption: "a caption".to_owned(),
+        ..Look::default()
+    };
+    // Every one of them changes what may be left over from the one before: particles, curves, words,
+    // the way of time, the legend, the colours.
+    let back = Frame {
+        way_back: true,
+        ..frame.clone()
+    };
+    let pressure = Look {
+        colouring: Colouring::Pressure,
+        ..Look::default()
+    };
+    let pictures = [
+        (&frame, &history, &look),
+        (&start, &history, &look),
+        (&start, &empty, &look),
+        (&frame, &history, &light),
+        (&back, &history, &light),
+        (&frame, &history, &pressure),
+        (&frame, &history, &look),
+    ];
+    let mut raster = Raster::new(320, 250, Rgb(0xff_00ff));
+    for (n, (frame, history, look)) in pictures.into_iter().enumerate() {
+        let panes = [Pane::new(frame, history)];
+        draw_on(&mut raster.draw(), &panes, &home, look, 240);
+        // A thread that has drawn nothing yet has nothing left over.
+        let fresh = std::thread::scope(|scope| {
+            let drawn = scope.spawn(|| draw(&panes, &home, look, 320, 240));
+            drawn.join().expect("a picture")
+        });
+        assert!(raster.part(fresh.rect()) == fresh, "picture {n}");
+    }
+    let below = Rect::new(0, 240, 320, 10);
+    assert!(raster.part(below).pixels().iter().all(|&p| p == 0xff_00ff));
+}
+
+#[test]
+fn where_discs_crowd_the_mean_is_still_that_of_all() {
+    // As many black particles as white ones in one place, beyond what single precision adds exactly.
+    let (mut frame, home, _) = after("dam-break", &["particle_spacing=0.1"], 0);
+    let n = 400_000;
+    frame.id = (0..n).collect();
+    frame.position = vec![[0.5, 0.5, 0.0]; n as usize];
+    frame.velocity = vec![[0.0; 3]; n as usize];
+    frame.density = vec![1000.0; n as usize];
+    frame.pressure = vec![0.0; n as usize];
+    let halves = (0..n).map(|id| Rgb(if id < n / 2 { 0 } else { 0xff_ffff }));
+    let look = Look {
+        colouring: Colouring::Picture(halves.collect()),
+        ..Look::default()
+    };
+    let drawn = field(&frame, &home, &look, 100, 100);
+    assert!(drawn.pixels().contains(&0x80_8080));
 }

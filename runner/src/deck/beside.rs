@@ -76,7 +76,8 @@ impl Companion {
     }
 
     pub fn picture(&mut self) -> Result<Report, Fault> {
-        let frame = Box::new(self.player.frame()?);
+        let mut frame = Box::default();
+        self.player.picture(&mut frame)?;
         Ok(Report::Beside(Beside::Picture(frame)))
     }
 }

@@ -38,6 +38,8 @@ pub enum Command {
         /// Rows in the order of their steps.
         rows: Vec<Row>,
     },
+    /// A picture that is no longer shown: the next one may be made in its memory.
+    Reuse(Box<Frame>),
 }
 
 /// What happened.

@@ -32,9 +32,10 @@ pub use messages::{
 };
 pub use opening::{Opening, OpeningError, Recorded};
 
-use std::sync::Arc;
+use crate::executor::Rayon;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, OnceLock};
 use std::thread::JoinHandle;
 
 /// Pictures a second at most.
@@ -63,6 +64,7 @@ impl Default for Wishes {
 pub struct Deck {
     commands: Option<Sender<Command>>,
     ready: Arc<AtomicBool>,
+    threads: Arc<OnceLock<Rayon>>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -91,14 +93,28 @@ impl Deck {
         let (commands, inbox) = channel();
         let ready = Arc::new(AtomicBool::new(true));
         let drawn = Arc::clone(&ready);
+        let threads = Arc::new(OnceLock::new());
+        let lent = Arc::clone(&threads);
         let thread = std::thread::Builder::new()
             .name("deck".to_owned())
-            .spawn(move || worker::work(opening, wishes, inbox, drawn, Box::new(report)))?;
+            .spawn(move || worker::work(opening, wishes, inbox, drawn, &lent, Box::new(report)))?;
         Ok(Self {
             commands: Some(commands),
             ready,
+            threads,
             thread: Some(thread),
         })
+    }
+
+    /// Runs `work`, say a drawing, where it keeps the simulation least. Where the simulation has a
+    /// thread for every processor they do it, between the parts of their steps: other threads would
+    /// push them aside, and each that is kept from its part makes all wait.
+    pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
+        let processors = std::thread::available_parallelism().map_or(1, usize::from);
+        match self.threads.get() {
+            Some(threads) if threads.threads() >= processors.max(2) => threads.install(work),
+            _ => work(),
+        }
     }
 
     /// Sends a command; a deck that has failed hears nothing.

@@ -10,6 +10,8 @@ use super::messages::{
 };
 use super::opening::{Opening, Recorded};
 use super::waypoints::Waypoints;
+use crate::executor::Rayon;
+use crate::frame::Frame;
 use crate::player::{Arrow, Player};
 use crate::run::{Plan, Row, RunError};
 use crate::saved::{ArithmeticKind, SavedState};
@@ -18,7 +20,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Steps are taken in pieces of about this time: handing over each of them costs more than a longer
@@ -33,6 +35,7 @@ pub(super) fn work(
     wishes: Wishes,
     inbox: Receiver<Command>,
     ready: Arc<AtomicBool>,
+    threads: &OnceLock<Rayon>,
     tell: Tell,
 ) {
     let tell: Arc<Mutex<Tell>> = Arc::new(Mutex::new(tell));
@@ -54,6 +57,10 @@ pub(super) fn work(
             Ok(opened) => opened,
             Err(error) => return say(Report::Failed(error.to_string())),
         };
+        if let Some(lent) = player.pool() {
+            // It is set once, here.
+            let _ = threads.set(lent);
+        }
         let mut worker = Worker::new(player, companion, &wishes, pace, ready, Box::new(say));
         match worker.begin(recorded, arithmetic) {
             Ok(()) => worker.run(&inbox),
@@ -96,11 +103,12 @@ struct Worker {
     /// The state that is gone back to when a step fails.
     good: (SavedState, i64, Arrow),
     keeper: Keeper,
-    /// When the last picture was handed over; `None` where the state has changed and a picture must
-    /// follow soon.
-    pictured: Option<Instant>,
+    /// When the next picture is due; `None` for at once.
+    due: Option<Instant>,
     /// The state has changed since.
     changed: bool,
+    /// A picture that the face has done with.
+    spare: Option<Box<Frame>>,
 }
 
 impl Worker {
@@ -136,8 +144,9 @@ impl Worker {
             meddling: Vec::new(),
             excursion: 0,
             keeper: Keeper::default(),
-            pictured: None,
+            due: None,
             changed: true,
+            spare: None,
             span: plan.out as i64,
         }
     }
@@ -240,11 +249,12 @@ impl Worker {
 
     /// Steps in a piece that begins now: fewer where a picture is due before its end.
     fn piece(&self, now: Instant) -> u64 {
-        let due = self.pictured.filter(|_| self.ready.load(Ordering::Acquire));
-        let time = due.map_or(PIECE, |last| {
-            let due = last + Duration::from_secs(1) / self.frames;
-            due.saturating_duration_since(now).min(PIECE)
-        });
+        let time = match self.due.map(|due| due.saturating_duration_since(now)) {
+            // The face is late with the last one: it may be ready any moment.
+            Some(Duration::ZERO) => PIECE / 8,
+            Some(time) => time.min(PIECE),
+            None => PIECE,
+        };
         (time.as_secs_f64() / self.step_time).round().max(1.0) as u64
     }
 
@@ -373,16 +383,18 @@ impl Worker {
         if regular {
             self.keep_good();
             let (state, position, arrow) = &self.good;
-            match travel {
+            let (waypoints, astray) = (&mut self.waypoints, self.astray);
+            let mut compare = || match travel {
                 Arrow::Forward => {
-                    self.waypoints.mark(*position, state, *arrow);
-                    self.astray = None;
+                    waypoints.mark(*position, state, *arrow);
+                    None
                 }
-                Arrow::Backward => {
-                    let astray = self.waypoints.astray(*position, state, *arrow);
-                    self.astray = astray.or(self.astray);
-                }
-            }
+                Arrow::Backward => waypoints.astray(*position, state, *arrow).or(astray),
+            };
+            self.astray = match self.player.pool() {
+                Some(pool) => pool.install(compare),
+                None => compare(),
+            };
         }
         if let Some(report) = self.beside(|companion| companion.measure(travel)) {
             (self.tell)(report);
@@ -416,7 +428,7 @@ impl Worker {
     /// Time stands still from now on: the numbers shown are those of this state.
     fn stand(&mut self) {
         self.clock.restart(Instant::now());
-        self.pictured = None;
+        self.due = None;
         self.changed = true;
     }
 
@@ -453,6 +465,10 @@ impl Worker {
             Command::Pace(pace) => {
                 self.pace = pace;
                 self.clock.set_rate(pace / self.player.scene().time_step());
+            }
+            Command::Reuse(frame) => {
+                self.spare = Some(frame);
+                return;
             }
             Command::Flip(particle) => {
                 self.player.flip_last_bit(particle);
@@ -579,23 +595,27 @@ impl Worker {
         // Of two ends of a step, the one that is nearer to the time.
         let pause = Duration::from_secs(1) / self.frames;
         let half_a_step = Duration::from_secs_f64(0.5 * self.step_time).min(pause / 4);
-        let pause = pause - half_a_step;
-        let age = self.pictured.map_or(pause, |then| then.elapsed());
-        if age < pause {
-            return wait.min(pause - age);
+        let now = Instant::now();
+        let due = self.due.unwrap_or(now);
+        let early = due.saturating_duration_since(now + half_a_step);
+        if !early.is_zero() {
+            return wait.min(early);
         }
         if !self.ready.swap(false, Ordering::Acquire) {
             // The face is still at the last one.
             return wait.min(Duration::from_millis(2));
         }
-        match self.player.frame() {
-            Ok(frame) => {
-                self.pictured = Some(Instant::now());
+        let mut frame = self.spare.take().unwrap_or_default();
+        match self.player.picture(&mut frame) {
+            Ok(()) => {
+                // In step with the clock, so that pictures that come a little late are not fewer.
+                self.due = Some((due + pause).max(now + pause / 2));
                 self.changed = false;
                 if let Some(report) = self.beside(Companion::picture) {
                     (self.tell)(report);
                 }
                 let status = self.status();
+                let frame = *frame;
                 (self.tell)(Report::Shot(Box::new(Shot { frame, status })));
             }
             Err(fault) => self.fail(fault),

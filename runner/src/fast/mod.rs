@@ -39,6 +39,7 @@ use loschmidt_core::{Arithmetic, Executor, Fault};
 use std::any::TypeId;
 use std::marker::PhantomData;
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use sweep::{Sums, Sweep};
 use walls::NearWalls;
@@ -49,6 +50,9 @@ pub struct Fast {
     rayon: Rayon,
     crew: Crew,
     memory: Mutex<Memory>,
+    /// Whether particles were summed over each other by sweeps, and by the plain traversal.
+    swept: AtomicBool,
+    plain: AtomicBool,
 }
 
 /// What outlives a step.
@@ -132,13 +136,32 @@ impl Fast {
                 backend,
             },
             memory: Mutex::default(),
+            swept: AtomicBool::new(false),
+            plain: AtomicBool::new(false),
         })
+    }
+
+    /// What the sums so far were made with: the instruction set, `serial` for the plain traversal, or
+    /// both where some of them were left to it.
+    pub fn backend_at_work(&self) -> String {
+        let swept = self.swept.load(Ordering::Relaxed);
+        let name = self.crew.backend.name();
+        match (swept, self.plain.load(Ordering::Relaxed)) {
+            (true, true) => format!("{name}, serial"),
+            (false, true) => "serial".to_owned(),
+            _ => name.to_owned(),
+        }
     }
 
     /// Gives back the memory that outlives a step; it is made anew when it is needed. What the scratch
     /// of a system holds is of no use afterwards.
     pub fn release(&self) {
         *self.memory() = Memory::default();
+    }
+
+    /// The threads.
+    pub fn threads(&self) -> &Rayon {
+        &self.rayon
     }
 
     /// Runs `work` on the threads.
@@ -292,6 +315,7 @@ impl Executor for Fast {
         let mut memory = self.memory();
         let memory = &mut *memory;
         if !is_swept::<A>() || !memory.layout.is_of(to.position) {
+            self.plain.fetch_or(to.same_set, Ordering::Relaxed);
             return self.rayon.sum(pass, to, from, out);
         }
         if !to.same_set {
@@ -301,8 +325,10 @@ impl Executor for Fast {
         let largest = memory.load(to.read);
         let in_range = pass.bound(&largest.map(A::Real::from_f64)) < LIMIT;
         if !in_range || memory.layout.most_candidates > MAX_NEIGHBOURS as usize {
+            self.plain.store(true, Ordering::Relaxed);
             return self.plain(pass, to, from, out);
         }
+        self.swept.store(true, Ordering::Relaxed);
         let Memory {
             layout,
             words,
@@ -353,6 +379,7 @@ impl Executor for Fast {
             && memory.layout.is_of(set.position)
             && memory.layout.most_candidates <= MAX_NEIGHBOURS as usize;
         if fits && memory.chain(self.crew, chain, set, &mut sums)? {
+            self.swept.store(true, Ordering::Relaxed);
             return Ok(());
         }
         drop(memory);

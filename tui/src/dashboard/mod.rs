@@ -138,7 +138,7 @@ impl Face {
         while !self.state.leaving && !stop.load(Ordering::Relaxed) {
             if urgent || (waiting && drawn.elapsed() >= pause) {
                 drawn = Instant::now();
-                terminal.draw(&self.state)?;
+                terminal.draw(&self.state, self.deck.as_ref())?;
                 (urgent, waiting) = (false, false);
                 if let (true, Some(deck)) = (picture, &self.deck) {
                     deck.ready();

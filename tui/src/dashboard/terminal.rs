@@ -3,6 +3,7 @@
 use super::keys;
 use super::message::Message;
 use super::state::State;
+use loschmidt_runner::Deck;
 use ratatui::backend::CrosstermBackend;
 use ratatui::crossterm::event::{self, DisableMouseCapture, EnableMouseCapture};
 use ratatui::crossterm::terminal::{
@@ -104,12 +105,15 @@ impl Terminal {
     }
 
     /// Draws the state, in one piece where the terminal can.
-    pub fn draw(&mut self, state: &State) -> std::io::Result<()> {
+    pub fn draw(&mut self, state: &State, deck: Option<&Deck>) -> std::io::Result<()> {
         let Some(screen) = &mut self.screen else {
             return Ok(());
         };
         queue!(screen.backend_mut(), BeginSynchronizedUpdate)?;
-        screen.draw(|frame| frame.render_widget(state, frame.area()))?;
+        screen.draw(|frame| match deck {
+            Some(deck) => deck.install(|| frame.render_widget(state, frame.area())),
+            None => frame.render_widget(state, frame.area()),
+        })?;
         queue!(screen.backend_mut(), EndSynchronizedUpdate)?;
         Write::flush(screen.backend_mut())
     }

@@ -5,7 +5,7 @@ use super::state::{Drag, Kept, Notice, Overlay, Panel, Stage, State, Tone};
 use super::view::Areas;
 use loschmidt_core::Reversibility;
 use loschmidt_runner::deck::{Command, Meddling, Perturbation, Report, faster, slower};
-use loschmidt_runner::{ArithmeticKind, Arrow};
+use loschmidt_runner::{ArithmeticKind, Arrow, Frame};
 use loschmidt_viewer::{Action, Colormap, Colouring, Key, Projection, Theme, View, keys};
 use std::time::Duration;
 
@@ -23,7 +23,7 @@ pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
         }
         Message::Report(deck, report) => {
             if deck == state.deck {
-                on_report(state, *report);
+                return reuse(on_report(state, *report));
             }
             Vec::new()
         }
@@ -73,6 +73,12 @@ pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
     }
 }
 
+/// The next picture is made in the memory of the one before.
+fn reuse(frame: Option<Frame>) -> Vec<Effect> {
+    let effect = |frame| Effect::Deck(Command::Reuse(Box::new(frame)));
+    frame.map(effect).into_iter().collect()
+}
+
 fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
     state.notice = Some(Notice {
         tone,
@@ -85,27 +91,28 @@ fn first_line(text: &str) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }
 
-fn on_report(state: &mut State, report: Report) {
+/// Takes a report into the state; the picture that a new one has replaced.
+fn on_report(state: &mut State, report: Report) -> Option<Frame> {
     match report {
         Report::Opened(opened) => {
             state.stage = Some(Stage::new(opened));
-            return;
+            return None;
         }
         Report::Failed(why) => {
             state.stage = None;
             state.overlay = Overlay::Error(why);
-            return;
+            return None;
         }
         _ => {}
     }
     let Some(stage) = &mut state.stage else {
-        return;
+        return None;
     };
     match report {
         Report::Opened(_) | Report::Failed(_) | Report::Beside(_) => {}
         Report::Shot(shot) => {
-            stage.frame = shot.frame;
             stage.status = shot.status;
+            return Some(std::mem::replace(&mut stage.frame, shot.frame));
         }
         Report::Status(status) => {
             stage.wanted = None;
@@ -167,6 +174,7 @@ fn on_report(state: &mut State, report: Report) {
         }
         Report::NotKept(why) => tell(state, Tone::Refused, why),
     }
+    None
 }
 
 fn meddled(stage: &Stage, meddling: &Meddling) -> String {

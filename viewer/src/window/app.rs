@@ -1,6 +1,6 @@
 //! The window itself: events in, pixels out.
 
-use super::compose::compose;
+use super::compose::{compose, compose_on};
 use super::error::WindowError;
 use super::input;
 use super::log::Log;
@@ -9,6 +9,7 @@ use super::state::{Kept, State};
 use super::update::update;
 use crate::picture::Picture;
 use crate::png;
+use crate::raster::Pixels;
 use loschmidt_runner::deck::{Command, Opening, OpeningError, Report, Wishes};
 use loschmidt_runner::output::free_directory;
 use loschmidt_runner::{Deck, Options};
@@ -230,8 +231,7 @@ impl App {
             return;
         };
         let began = Instant::now();
-        let (width, height) = self.state.size;
-        let shown = show(&mut canvas.surface, &self.state, width, height);
+        let shown = show(canvas, &self.state, self.deck.as_ref());
         if let Err(why) = shown {
             self.error = Some(WindowError::Display(why));
             self.state.leaving = true;
@@ -341,20 +341,23 @@ impl App {
 }
 
 /// The pixels of the state on the surface.
-fn show(
-    surface: &mut Surface<OwnedDisplayHandle, Rc<Window>>,
-    state: &State,
-    width: usize,
-    height: usize,
-) -> Result<(), String> {
+fn show(canvas: &mut Canvas, state: &State, deck: Option<&Deck>) -> Result<(), String> {
+    let (width, height) = state.size;
     let size = |n: usize| u32::try_from(n).ok().and_then(NonZeroU32::new);
     // A window that is rolled up has no pixels.
     let (Some(w), Some(h)) = (size(width), size(height)) else {
         return Ok(());
     };
+    let surface = &mut canvas.surface;
     surface.resize(w, h).map_err(|why| why.to_string())?;
     let mut buffer = surface.buffer_mut().map_err(|why| why.to_string())?;
-    buffer.copy_from_slice(compose(state, (width, height)).pixels());
+    let Some(mut pixels) = Pixels::new(width, height, &mut buffer) else {
+        return Err("the surface has another size".to_owned());
+    };
+    match deck {
+        Some(deck) => deck.install(|| compose_on(&mut pixels, state)),
+        None => compose_on(&mut pixels, state),
+    }
     buffer.present().map_err(|why| why.to_string())
 }
 

@@ -3,46 +3,56 @@
 use super::places::Places;
 use super::state::{Overlay, Stage, State};
 use super::{sheets, strip};
-use crate::draw::{Look, Pane, draw};
-use crate::raster::Raster;
+use crate::colour::Rgb;
+use crate::draw::{Look, Pane, draw_on};
+use crate::raster::{Pixels, Raster, Rect};
 use crate::text::{self, Style, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
 /// The pixels of a window of `width` times `height` pixels: a function of the state alone.
 #[must_use]
 pub fn compose(state: &State, (width, height): (usize, usize)) -> Raster {
-    let mut raster = match &state.stage {
-        Some(stage) => {
-            let places = Places::with(state, stage, (width, height));
-            let theme = &state.look.theme;
-            let mut raster = picture(state, stage, &places).extended(height, theme.panel);
-            strip::paint(&mut raster, state, stage, &places);
-            if let Some(arrival) = &state.banner {
-                sheets::banner(&mut raster, arrival, theme, &places);
-            }
-            raster
-        }
-        None => waiting(state, width, height),
-    };
-    match &state.overlay {
-        Overlay::None => {}
-        Overlay::Help => sheets::help(&mut raster, &state.look.theme),
-        Overlay::Error(why) => sheets::error(&mut raster, why, &state.look.theme),
-    }
+    let mut raster = Raster::new(width, height, Rgb(0));
+    compose_on(&mut raster.draw(), state);
     raster
 }
 
+/// The same over whatever is in a raster of the window's size.
+pub fn compose_on(raster: &mut Pixels<'_>, state: &State) {
+    let size = (raster.width(), raster.height());
+    let theme = &state.look.theme;
+    match &state.stage {
+        Some(stage) => {
+            let places = Places::with(state, stage, size);
+            picture(raster, state, stage, &places);
+            let below = places.picture.height;
+            let rest = Rect::new(0, below, size.0, size.1.saturating_sub(below));
+            raster.fill(rest, theme.panel, 255);
+            strip::paint(raster, state, stage, &places);
+            if let Some(arrival) = &state.banner {
+                sheets::banner(raster, arrival, theme, &places);
+            }
+        }
+        None => waiting(raster, state),
+    }
+    match &state.overlay {
+        Overlay::None => {}
+        Overlay::Help => sheets::help(raster, theme),
+        Overlay::Error(why) => sheets::error(raster, why, theme),
+    }
+}
+
 /// The rasteriser's picture of the players.
-fn picture(state: &State, stage: &Stage, places: &Places) -> Raster {
+fn picture(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places) {
     let look = look(state, stage);
     let name = |kind| match kind {
         ArithmeticKind::Fixed => "fixed point",
         ArithmeticKind::Float => "floating point",
     };
     let mut first = Pane::new(&stage.frame, &stage.ways.history);
-    let size = (places.picture.width, places.picture.height);
+    let height = places.picture.height;
     let Some(other) = &stage.other else {
-        return draw(&[first], &stage.home, &look, size.0, size.1);
+        return draw_on(raster, &[first], &stage.home, &look, height);
     };
     let asked = stage.opened.options.arithmetic;
     first.label = name(stage.status.arithmetic);
@@ -54,7 +64,7 @@ fn picture(state: &State, stage: &Stage, places: &Places) -> Raster {
         }),
         ..Pane::new(frame, &other.ways.history)
     };
-    draw(&[first, second], &stage.home, &look, size.0, size.1)
+    draw_on(raster, &[first, second], &stage.home, &look, height);
 }
 
 /// The look with what follows from the state.
@@ -68,9 +78,10 @@ fn look(state: &State, stage: &Stage) -> Look {
 }
 
 /// A scene is being set up.
-fn waiting(state: &State, width: usize, height: usize) -> Raster {
+fn waiting(raster: &mut Pixels<'_>, state: &State) {
     let theme = &state.look.theme;
-    let mut raster = Raster::new(width, height, theme.background);
+    let (width, height) = (raster.width(), raster.height());
+    raster.fill(raster.rect(), theme.background, 255);
     if state.overlay == Overlay::None {
         let style = Style {
             size: (height / 30).clamp(8, 64),
@@ -79,13 +90,6 @@ fn waiting(state: &State, width: usize, height: usize) -> Raster {
         };
         let text = format!("setting up {} …", state.request.name);
         let text = text::fitted(&style, &text, width as f64);
-        text::write_around(
-            &mut raster,
-            &style,
-            0.5 * width as f64,
-            height as i64 / 2,
-            &text,
-        );
+        text::write_around(raster, &style, 0.5 * width as f64, height as i64 / 2, &text);
     }
-    raster
 }

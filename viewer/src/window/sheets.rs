@@ -4,7 +4,7 @@ use super::places::Places;
 use super::strip::{alarm, count};
 use crate::colour::{Rgb, Theme};
 use crate::keys;
-use crate::raster::{Raster, Rect};
+use crate::raster::{Pixels, Rect};
 use crate::text::{self, Style, Weight};
 use loschmidt_runner::ArithmeticKind;
 use loschmidt_runner::deck::{Arrival, Meddling, Perturbation};
@@ -43,7 +43,14 @@ const LINE: f64 = 1.5;
 
 /// A sheet in the middle of a rectangle; its text is as large as `em` where it fits then, and else
 /// smaller.
-fn sheet(raster: &mut Raster, within: Rect, em: usize, lines: &[Line], edge: Rgb, theme: &Theme) {
+fn sheet(
+    raster: &mut Pixels<'_>,
+    within: Rect,
+    em: usize,
+    lines: &[Line],
+    edge: Rgb,
+    theme: &Theme,
+) {
     let width = |em: usize| {
         let pieces = lines.iter().flatten();
         pieces
@@ -75,7 +82,7 @@ fn sheet(raster: &mut Raster, within: Rect, em: usize, lines: &[Line], edge: Rgb
 }
 
 /// The keys.
-pub fn help(raster: &mut Raster, theme: &Theme) {
+pub fn help(raster: &mut Pixels<'_>, theme: &Theme) {
     let mut lines: Vec<Line> = Vec::new();
     let mut group = "";
     for binding in keys::of_window() {
@@ -113,7 +120,7 @@ pub fn help(raster: &mut Raster, theme: &Theme) {
 }
 
 /// Why nothing can be shown.
-pub fn error(raster: &mut Raster, why: &str, theme: &Theme) {
+pub fn error(raster: &mut Pixels<'_>, why: &str, theme: &Theme) {
     let edge = alarm(theme);
     let title = Piece::new(0.0, "this cannot be shown", edge, Weight::SemiBold);
     let mut lines: Vec<Line> = vec![vec![title], Vec::new()];
@@ -133,7 +140,7 @@ pub fn error(raster: &mut Raster, why: &str, theme: &Theme) {
 }
 
 /// The start was reached.
-pub fn banner(raster: &mut Raster, arrival: &Arrival, theme: &Theme, places: &Places) {
+pub fn banner(raster: &mut Pixels<'_>, arrival: &Arrival, theme: &Theme, places: &Places) {
     let exact = arrival.comparison.is_exact();
     let (lines, edge) = if exact {
         (returned(arrival, theme), theme.second)

@@ -5,7 +5,7 @@ use super::state::{Stage, State, Tone};
 use crate::colour::{Rgb, Theme};
 use crate::keys::{self, Action};
 use crate::plot::number;
-use crate::raster::{Mask, Raster, Rect};
+use crate::raster::{Mask, Pixels, Rect};
 use crate::text::{self, Style, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
@@ -15,7 +15,7 @@ pub fn alarm(theme: &Theme) -> Rgb {
 }
 
 /// Paints the strip.
-pub fn paint(raster: &mut Raster, state: &State, stage: &Stage, places: &Places) {
+pub fn paint(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places) {
     if places.strip.height == 0 {
         return;
     }
@@ -30,7 +30,7 @@ pub fn paint(raster: &mut Raster, state: &State, stage: &Stage, places: &Places)
 }
 
 /// The bar of time: what was reached, the present, where a seek leads.
-fn bar(raster: &mut Raster, stage: &Stage, places: &Places, theme: &Theme) {
+fn bar(raster: &mut Pixels<'_>, stage: &Stage, places: &Places, theme: &Theme) {
     let (bar, em, status) = (places.bar, places.em as f64, &stage.status);
     if bar.width < 8 {
         return;
@@ -86,7 +86,7 @@ fn bar(raster: &mut Raster, stage: &Stage, places: &Places, theme: &Theme) {
 }
 
 /// Left what the simulation does, right a notice, or who is astray, or the keys.
-fn words(raster: &mut Raster, state: &State, stage: &Stage, places: &Places) {
+fn words(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places) {
     let (theme, em) = (&state.look.theme, places.em);
     let style = |colour, weight| Style {
         size: em * 6 / 7,

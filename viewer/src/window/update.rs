@@ -9,7 +9,7 @@ use crate::colouring::Colouring;
 use crate::keys::{self, Action, Key};
 use loschmidt_core::Reversibility;
 use loschmidt_runner::deck::{Beside, Command, Meddling, Perturbation, Report, faster, slower};
-use loschmidt_runner::{ArithmeticKind, Arrow};
+use loschmidt_runner::{ArithmeticKind, Arrow, Frame};
 use std::path::Path;
 use std::time::Duration;
 
@@ -28,7 +28,9 @@ pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
             state.size = (width, height);
             state.scale = scale;
         }
-        Message::Report(deck, report) if deck == state.deck => on_report(state, *report),
+        Message::Report(deck, report) if deck == state.deck => {
+            return reuse(on_report(state, *report));
+        }
         Message::Report(..) => {}
         Message::Tick(now) => {
             state.now = now;
@@ -66,6 +68,12 @@ pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
     Vec::new()
 }
 
+/// The next picture is made in the memory of the one before.
+fn reuse(frame: Option<Frame>) -> Vec<Effect> {
+    let effect = |frame| Effect::Deck(Command::Reuse(Box::new(frame)));
+    frame.map(effect).into_iter().collect()
+}
+
 fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
     state.notice = Some(Notice {
         tone,
@@ -74,7 +82,8 @@ fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
     });
 }
 
-fn on_report(state: &mut State, report: Report) {
+/// Takes a report into the state; the picture that a new one has replaced.
+fn on_report(state: &mut State, report: Report) -> Option<Frame> {
     match report {
         Report::Opened(opened) => {
             let stage = Stage::new(opened, state.request.beside, state.picture.as_ref());
@@ -85,23 +94,23 @@ fn on_report(state: &mut State, report: Report) {
                 _ => {}
             }
             state.stage = Some(stage);
-            return;
+            return None;
         }
         Report::Failed(why) => {
             state.stage = None;
             state.overlay = Overlay::Error(why);
-            return;
+            return None;
         }
         _ => {}
     }
     let Some(stage) = &mut state.stage else {
-        return;
+        return None;
     };
     match report {
         Report::Opened(_) | Report::Failed(_) => {}
         Report::Shot(shot) => {
-            stage.frame = shot.frame;
             stage.status = shot.status;
+            return Some(std::mem::replace(&mut stage.frame, shot.frame));
         }
         Report::Status(status) => {
             // A drag goes on wanting; a key's wish is under way now.
@@ -173,6 +182,7 @@ fn on_report(state: &mut State, report: Report) {
         }
         Report::NotKept(why) => tell(state, Tone::Refused, why),
     }
+    None
 }
 
 fn meddled(stage: &Stage, meddling: &Meddling) -> String {

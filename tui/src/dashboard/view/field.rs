@@ -80,7 +80,8 @@ fn mark(stage: &Stage, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let Some(particle) = stage.flipped() else {
         return;
     };
-    let Some(&x) = stage.frame.position.get(particle as usize) else {
+    let place = stage.frame.id.iter().position(|&id| id == particle);
+    let Some(&x) = place.and_then(|place| stage.frame.position.get(place)) else {
         return;
     };
     let (width, height) = (usize::from(area.width), 2 * usize::from(area.height));
