@@ -4,7 +4,7 @@
 use loschmidt_core::Fault;
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::{InitialState, Scene};
-use loschmidt_runner::{ExecutorKind, Options, Player};
+use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options, Player};
 use loschmidt_tests::generator::Generator;
 use loschmidt_tests::program::{scene, scene_of, serial, threads};
 use proptest::prelude::*;
@@ -166,6 +166,33 @@ fn a_channel_longer_than_a_meeting_can_name() {
     assert!(reference.is_ok(), "{reference:?}");
     let found = digests(&scene, &initial, fast(Backend::best(), 2), &[2]);
     assert_eq!(found, reference);
+    // And it says who summed.
+    let mut player = Player::new(scene, initial, fast(Backend::best(), 2)).unwrap();
+    player.advance(1).unwrap();
+    assert_eq!(player.backend(), "serial");
+}
+
+#[test]
+fn a_run_says_what_its_sums_were_made_with() {
+    let scene = scene_of(
+        "particle_spacing = 0.1\nend = 1.0\ntime_step = 1e-5\nfluid.sound_speed = 10\n\
+         [[region]]\nkind = \"fluid\"\nshape.rectangle = { min = [0, 0], max = [1, 1] }\n",
+    );
+    let backend = |options: Options| {
+        let initial = scene.initial_state().unwrap();
+        let mut player = Player::new(scene.clone(), initial, options).unwrap();
+        player.advance(2).unwrap();
+        player.backend()
+    };
+    for at_work in Backend::ALL.into_iter().filter(|b| b.is_available()) {
+        assert_eq!(backend(fast(at_work, 1)), at_work.name());
+    }
+    assert_eq!(backend(threads(2)), "serial");
+    let float = Options {
+        arithmetic: ArithmeticKind::Float,
+        ..fast(Backend::best(), 2)
+    };
+    assert_eq!(backend(float), "serial");
 }
 
 fn cloud_scene(dimension: usize) -> Scene {

@@ -100,7 +100,9 @@ pub struct Outcome {
     pub arithmetic: String,
     /// Who walked the particles.
     pub executor: String,
-    /// Instruction set of the pair sums; `serial` for the plain traversal.
+    /// What the pair sums were made with: an instruction set; `serial` for the plain traversal, which sums
+    /// in the other executors, in floating point, and where a fluid is too long or too crowded for the
+    /// lists of the fast one; or both.
     pub backend: String,
     /// Threads at work.
     pub threads: usize,
@@ -225,7 +227,7 @@ impl Outcome {
             integrator: scene.integrator.word().to_owned(),
             arithmetic: options.arithmetic.name().to_owned(),
             executor: options.executor.name().to_owned(),
-            backend: options.backend_at_work().to_owned(),
+            backend: player.backend(),
             threads,
             digest: Digests {
                 initial: player.home_digest().to_string(),
