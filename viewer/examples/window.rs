@@ -5,7 +5,8 @@
 
 use loschmidt_runner::deck::{Command, Opening, Report, Wishes};
 use loschmidt_runner::{Deck, Options};
-use loschmidt_viewer::window::{Message, Request, State, compose, update};
+use loschmidt_viewer::face::Request;
+use loschmidt_viewer::window::{Message, State, compose, update};
 use loschmidt_viewer::{Look, Picture, png};
 use std::error::Error;
 use std::fs::File;

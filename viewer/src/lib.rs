@@ -12,13 +12,13 @@
 //! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
 //!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
 //! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
-//! 6. What faces share: [`keys`], the one table of keys; [`track`], the ways out and back as they are
-//!    while a user goes to and fro.
+//! 6. What faces share: [`face`], what they open, keep and say; [`keys`], the one table of keys;
+//!    [`track`], the ways out and back as they are while a user goes to and fro.
 //! 7. [`window`]: the desktop window.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
-//! every machine. Every thread owns the rows it draws, sums over particles are sums of integers or
-//! in the order of the ids, and of the functions beyond `+ - * / sqrt` only those of `libm` are used.
+//! every machine. Every thread owns the rows it draws, sums over particles are sums of whole numbers
+//! or in the order of the ids, and of the functions beyond `+ - * / sqrt` only those of `libm` are used.
 
 #![forbid(unsafe_code)]
 
@@ -27,6 +27,7 @@ pub mod camera;
 pub mod colour;
 pub mod colouring;
 pub mod draw;
+pub mod face;
 pub mod field;
 pub mod history;
 pub mod home;

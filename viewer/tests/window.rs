@@ -3,7 +3,8 @@
 use loschmidt_runner::Deck;
 use loschmidt_runner::Options;
 use loschmidt_runner::deck::{Command, Opening, Report};
-use loschmidt_viewer::window::{Button, Drag, Effect, Message, Mouse, Places, Request};
+use loschmidt_viewer::face::Request;
+use loschmidt_viewer::window::{Button, Drag, Effect, Message, Mouse, Places};
 use loschmidt_viewer::window::{State, compose, update};
 use loschmidt_viewer::{Key, Look, Pane, Rgb, Theme, draw, png};
 use std::io::Cursor;

@@ -2,9 +2,10 @@
 
 use super::run::stop_flag;
 use crate::cli::{RunArguments, TuiArguments};
-use crate::dashboard::{self, Request};
+use crate::dashboard;
 use crate::exit::{Failure, USAGE};
 use loschmidt_runner::Options;
+use loschmidt_viewer::face::Request;
 use std::process::ExitCode;
 
 /// Opens the dashboard.
@@ -22,6 +23,7 @@ pub fn tui(arguments: &TuiArguments) -> Result<ExitCode, Failure> {
             name: name.clone(),
             set: arguments.set.clone(),
             threads: arguments.threads.map(Into::into),
+            beside: false,
         },
         None => Request {
             name: default.scene,
@@ -31,6 +33,7 @@ pub fn tui(arguments: &TuiArguments) -> Result<ExitCode, Failure> {
                 .chain(arguments.set.clone())
                 .collect(),
             threads: arguments.threads.map(Into::into),
+            beside: false,
         },
     };
     dashboard::run(request, options, &*stop_flag()?)

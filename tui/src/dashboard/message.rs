@@ -2,6 +2,7 @@
 
 use loschmidt_runner::deck::{Command, Report};
 use loschmidt_viewer::Key;
+use loschmidt_viewer::face::Request;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -55,17 +56,6 @@ pub struct Choice {
     pub name: String,
     /// What it is.
     pub title: String,
-}
-
-/// What is to be opened.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Request {
-    /// A name or path.
-    pub name: String,
-    /// Overrides `key=value`.
-    pub set: Vec<String>,
-    /// Threads; `None` for those of before.
-    pub threads: Option<usize>,
 }
 
 /// What the dashboard asks for.

@@ -21,7 +21,6 @@ mod view;
 #[cfg(test)]
 mod tests;
 
-pub use message::Request;
 pub use state::Depth;
 pub use terminal::is_terminal;
 
@@ -29,12 +28,11 @@ use crate::exit::{Failure, INTERRUPTED, OUTPUT, USAGE, quote, tell};
 use loschmidt_runner::deck::{Command, FRAMES, Opening, OpeningError, Report};
 use loschmidt_runner::output::free_directory;
 use loschmidt_runner::{Deck, Options};
+use loschmidt_viewer::face::{Kept, Request, new_picture};
 use loschmidt_viewer::{Look, Pane, draw, png};
 use message::{Effect, Message};
-use state::{Kept, State};
-use std::fs::File;
+use state::State;
 use std::io::BufWriter;
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -54,7 +52,7 @@ const PICTURE: (usize, usize) = (1920, 1080);
 /// Opens the dashboard; returns when its user leaves.
 pub fn run(request: Request, options: Options, stop: &AtomicBool) -> Result<ExitCode, Failure> {
     // What cannot be read is said on the terminal as it was.
-    let opening = opening(&request, options)?;
+    let opening = request.opening(options)?;
     let (sender, inbox) = channel();
     let mut terminal = Terminal::enter()?;
     let depth = Depth::of_environment(|name| std::env::var(name).ok());
@@ -101,16 +99,6 @@ impl From<OpeningError> for Failure {
             OpeningError::Changed { .. } => Self::new(USAGE, format!("error: {error}")),
         }
     }
-}
-
-/// What a request opens.
-fn opening(request: &Request, options: Options) -> Result<Opening, OpeningError> {
-    let threads = request.threads.and_then(NonZeroUsize::new);
-    let options = Options {
-        threads: threads.unwrap_or(options.threads),
-        ..options
-    };
-    Opening::of(&request.name, &request.set, options)
 }
 
 /// The dashboard and what it has at hand.
@@ -189,7 +177,7 @@ impl Face {
                     deck.send(command);
                 }
             }
-            Effect::Open(request) => match opening(&request, self.options) {
+            Effect::Open(request) => match request.opening(self.options) {
                 Ok(opening) => self.open(request, opening),
                 Err(why) => {
                     let why = why.to_string();
@@ -213,12 +201,10 @@ impl Face {
         self.deck = None;
         self.decks += 1;
         let number = self.decks;
-        let run = opening.recorded.as_ref().map(|recorded| Kept {
-            path: PathBuf::from(&request.name),
-            position: recorded.position,
-            arrow: recorded.arrow,
-            meddling: 0,
-        });
+        let run = opening
+            .recorded
+            .as_ref()
+            .map(|recorded| Kept::recorded(PathBuf::from(&request.name), recorded));
         self.take(Message::Opening(number, request));
         self.state.kept = run;
         let sender = self.sender.clone();
@@ -249,7 +235,7 @@ impl Face {
             stage.home.name,
             stage.status.position.max(0)
         );
-        let (file, path) = new_file(&name, "png").map_err(|e| format!("no picture: {e}"))?;
+        let (file, path) = new_picture(&name).map_err(|e| format!("no picture: {e}"))?;
         png::write(&raster, BufWriter::new(file))
             .map_err(|e| format!("cannot write {}: {e}", path.display()))?;
         Ok(path)
@@ -319,22 +305,6 @@ impl Face {
                 Ok(_) => {}
                 Err(_) => return,
             }
-        }
-    }
-}
-
-/// A new file of this name, with a number where there is one already.
-fn new_file(name: &str, extension: &str) -> std::io::Result<(File, PathBuf)> {
-    let mut number = 1;
-    loop {
-        let path = match number {
-            1 => PathBuf::from(format!("{name}.{extension}")),
-            n => PathBuf::from(format!("{name}-{n}.{extension}")),
-        };
-        match File::create_new(&path) {
-            Ok(file) => return Ok((file, path)),
-            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
-            Err(error) => return Err(error),
         }
     }
 }

@@ -1,11 +1,11 @@
 //! The state of the dashboard: everything that a view shows.
 
-use super::message::{Choice, Request};
+use super::message::Choice;
 use loschmidt_runner::deck::{Arrival, Moment, Opened, Perturbation, Report, Status};
 use loschmidt_runner::run::Row;
 use loschmidt_runner::{Arrow, Frame};
+use loschmidt_viewer::face::{Kept, Notice, Request, is_unsaved};
 use loschmidt_viewer::{Home, Look, Track};
-use std::path::PathBuf;
 use std::time::Duration;
 
 /// How many colours the terminal has.
@@ -43,26 +43,6 @@ impl Depth {
     pub fn has_pixels(self) -> bool {
         matches!(self, Self::True | Self::Indexed)
     }
-}
-
-/// How a notice is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tone {
-    /// It was done.
-    Done,
-    /// It was done, and something must be known of it.
-    Warning,
-    /// It was not done.
-    Refused,
-}
-
-/// A line that stays for some seconds.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Notice {
-    pub tone: Tone,
-    pub text: String,
-    /// When it goes.
-    pub until: Duration,
 }
 
 /// What lies over the rest.
@@ -195,15 +175,6 @@ impl Stage {
     }
 }
 
-/// What was kept last: nothing has happened since if it is still so.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
-    pub path: PathBuf,
-    pub position: i64,
-    pub arrow: Arrow,
-    pub meddling: usize,
-}
-
 /// The state.
 #[derive(Debug, Default)]
 pub struct State {
@@ -253,14 +224,7 @@ impl State {
         let Some(stage) = &self.stage else {
             return false;
         };
-        let status = &stage.status;
-        let somewhere = status.position != 0 || !status.meddling.is_empty();
-        let kept = self.kept.as_ref().is_some_and(|kept| {
-            kept.position == status.position
-                && kept.arrow == status.arrow
-                && kept.meddling == status.meddling.len()
-        });
-        somewhere && !kept
+        is_unsaved(&stage.status, self.kept.as_ref())
     }
 
     /// Whether a picture came with this report.

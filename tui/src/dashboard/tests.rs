@@ -5,12 +5,13 @@ mod screens;
 mod speed;
 mod widgets;
 
-use super::message::{Effect, Message, Request};
+use super::message::{Effect, Message};
 use super::state::{Depth, State};
 use super::update::update;
 use loschmidt_runner::deck::{Command, Opening, Report};
 use loschmidt_runner::{Deck, Options};
 use loschmidt_viewer::Key;
+use loschmidt_viewer::face::Request;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
@@ -37,6 +38,7 @@ impl Bench {
             name: name.to_owned(),
             set,
             threads: None,
+            beside: false,
         };
         let mut bench = Self {
             state: State::new(Depth::True, size, request.clone()),

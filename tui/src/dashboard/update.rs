@@ -1,16 +1,15 @@
 //! How the state changes, and what is asked for: without a clock, a file or a terminal.
 
-use super::message::{Effect, Message, Mouse, Request};
-use super::state::{Drag, Kept, Notice, Overlay, Panel, Stage, State, Tone};
+use super::message::{Effect, Message, Mouse};
+use super::state::{Drag, Overlay, Panel, Stage, State};
 use super::view::Areas;
 use loschmidt_core::Reversibility;
-use loschmidt_runner::deck::{Command, Meddling, Perturbation, Report, faster, slower};
-use loschmidt_runner::{ArithmeticKind, Arrow, Frame};
-use loschmidt_viewer::{Action, Colormap, Colouring, Key, Projection, Theme, View, keys};
-use std::time::Duration;
-
-/// How long a notice stays.
-const STAYS: Duration = Duration::from_secs(6);
+use loschmidt_runner::deck::{Command, Report, faster, slower};
+use loschmidt_runner::{ArithmeticKind, Frame};
+use loschmidt_viewer::face::{
+    Kept, Notice, Request, Tone, meddled, next_colormap, next_colouring, turned,
+};
+use loschmidt_viewer::{Action, Key, Projection, Theme, View, keys};
 
 /// Changes the state; returns what is to be done.
 pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
@@ -80,11 +79,7 @@ fn reuse(frame: Option<Frame>) -> Vec<Effect> {
 }
 
 fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
-    state.notice = Some(Notice {
-        tone,
-        text: text.into(),
-        until: state.now + STAYS,
-    });
+    state.notice = Some(Notice::new(tone, text, state.now));
 }
 
 fn first_line(text: &str) -> String {
@@ -127,23 +122,11 @@ fn on_report(state: &mut State, report: Report) -> Option<Frame> {
         Report::Turned(arrow) => {
             stage.turning = false;
             stage.status.arrow = arrow;
-            let float = stage.status.arithmetic == ArithmeticKind::Float;
-            match arrow {
-                Arrow::Backward if float => tell(
-                    state,
-                    Tone::Warning,
-                    "time reversed, in floating point: these sums do not lead back home",
-                ),
-                Arrow::Backward => tell(
-                    state,
-                    Tone::Done,
-                    "time reversed: every velocity has changed its sign",
-                ),
-                Arrow::Forward => tell(state, Tone::Done, "time runs forward again"),
-            }
+            let (tone, text) = turned(arrow, stage.status.arithmetic);
+            tell(state, tone, text);
         }
         Report::Meddled(meddling) => {
-            let text = meddled(stage, &meddling);
+            let text = meddled(&meddling, stage.opened.length_quantum);
             tell(state, Tone::Warning, text);
         }
         Report::Arrived(arrival) => state.banner = Some(arrival),
@@ -164,30 +147,12 @@ fn on_report(state: &mut State, report: Report) -> Option<Frame> {
                 "saved; open it again with  loschmidt tui {}",
                 path.display()
             );
-            state.kept = Some(Kept {
-                path,
-                position: stage.status.position,
-                arrow: stage.status.arrow,
-                meddling: stage.status.meddling.len(),
-            });
+            state.kept = Some(Kept::new(path, &stage.status));
             tell(state, Tone::Done, text);
         }
         Report::NotKept(why) => tell(state, Tone::Refused, why),
     }
     None
-}
-
-fn meddled(stage: &Stage, meddling: &Meddling) -> String {
-    match meddling.what {
-        Perturbation::Flipped(particle) => {
-            let quantum = stage.opened.length_quantum;
-            format!("particle {particle}: last bit flipped, it stands {quantum:.1e} m aside")
-        }
-        Perturbation::Switched(ArithmeticKind::Float) => {
-            "floating point from here on: the same terms, their sums rounded".to_owned()
-        }
-        Perturbation::Switched(ArithmeticKind::Fixed) => "fixed point from here on".to_owned(),
-    }
 }
 
 fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
@@ -221,6 +186,7 @@ fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
                             name: choice.name.clone(),
                             set: Vec::new(),
                             threads: state.request.threads,
+                            beside: false,
                         })];
                     }
                 }
@@ -377,7 +343,7 @@ fn on_view(state: &mut State, action: Action) -> Option<Vec<Effect>> {
         state.look.view = state.look.view.dragged(by, &projection);
     };
     match action {
-        Action::Colour => look.colouring = next_colouring(&look.colouring),
+        Action::Colour => look.colouring = next_colouring(&look.colouring, None),
         Action::Colormap => look.colormap = next_colormap(look.colormap),
         Action::Theme => {
             look.theme = if look.theme == Theme::DARK {
@@ -400,24 +366,6 @@ fn on_view(state: &mut State, action: Action) -> Option<Vec<Effect>> {
         _ => return None,
     }
     Some(Vec::new())
-}
-
-fn next_colouring(now: &Colouring) -> Colouring {
-    let all = Colouring::MEASURED;
-    let place = all.iter().position(|c| c == now).map_or(0, |n| n + 1);
-    all[place % all.len()].clone()
-}
-
-/// The one that suits the colouring, and then all of them in turn.
-fn next_colormap(now: Option<Colormap>) -> Option<Colormap> {
-    let all = Colormap::ALL;
-    match now {
-        None => Some(all[0]),
-        Some(map) => {
-            let place = all.iter().position(|m| *m == map).unwrap_or(0);
-            all.get(place + 1).copied()
-        }
-    }
 }
 
 /// The projection of the field, and its size in pixels.
@@ -589,5 +537,6 @@ fn restarted(request: &Request, panel: &Panel) -> Result<Request, String> {
         name,
         set,
         threads: Some(threads),
+        beside: false,
     })
 }

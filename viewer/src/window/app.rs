@@ -4,19 +4,19 @@ use super::compose::{compose, compose_on};
 use super::error::WindowError;
 use super::input;
 use super::log::Log;
-use super::message::{Button, Effect, Message, Mouse, Request};
-use super::state::{Kept, State};
+use super::message::{Button, Effect, Message, Mouse};
+use super::state::State;
 use super::update::update;
+use crate::face::{Kept, Request, new_picture};
 use crate::picture::Picture;
 use crate::png;
 use crate::raster::Pixels;
-use loschmidt_runner::deck::{Command, Opening, OpeningError, Report, Wishes};
+use loschmidt_runner::deck::{Command, Opening, Report, Wishes};
 use loschmidt_runner::output::free_directory;
 use loschmidt_runner::{Deck, Options};
 use softbuffer::{Context, Surface};
-use std::fs::File;
 use std::io::BufWriter;
-use std::num::{NonZeroU32, NonZeroUsize};
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -112,12 +112,10 @@ impl App {
         self.pictured = false;
         self.decks += 1;
         let number = self.decks;
-        let run = opening.recorded.as_ref().map(|recorded| Kept {
-            path: PathBuf::from(&request.name),
-            position: recorded.position,
-            arrow: recorded.arrow,
-            meddling: 0,
-        });
+        let run = opening
+            .recorded
+            .as_ref()
+            .map(|recorded| Kept::recorded(PathBuf::from(&request.name), recorded));
         let wishes = Wishes {
             frames: FRAMES,
             beside: request.beside,
@@ -163,7 +161,7 @@ impl App {
                     deck.send(command);
                 }
             }
-            Effect::Open(request) => match opening(&request, self.options) {
+            Effect::Open(request) => match request.opening(self.options) {
                 Ok(opening) => self.open(request, opening),
                 Err(why) => {
                     let why = why.to_string();
@@ -191,7 +189,7 @@ impl App {
             Some(stage) => format!("{}-step-{:06}", stage.home.name, stage.frame.step),
             None => "loschmidt".to_owned(),
         };
-        let (file, path) = new_file(&name).map_err(|e| format!("no picture: {e}"))?;
+        let (file, path) = new_picture(&name).map_err(|e| format!("no picture: {e}"))?;
         png::write(&raster, BufWriter::new(file))
             .map_err(|e| format!("cannot write {}: {e}", path.display()))?;
         Ok(path)
@@ -359,32 +357,6 @@ fn show(canvas: &mut Canvas, state: &State, deck: Option<&Deck>) -> Result<(), S
         None => compose_on(&mut pixels, state),
     }
     buffer.present().map_err(|why| why.to_string())
-}
-
-/// What a request opens.
-pub fn opening(request: &Request, options: Options) -> Result<Opening, OpeningError> {
-    let threads = request.threads.and_then(NonZeroUsize::new);
-    let options = Options {
-        threads: threads.unwrap_or(options.threads),
-        ..options
-    };
-    Opening::of(&request.name, &request.set, options)
-}
-
-/// A new PNG file of this name, with a number where there is one already.
-fn new_file(name: &str) -> std::io::Result<(File, PathBuf)> {
-    let mut number = 1;
-    loop {
-        let path = match number {
-            1 => PathBuf::from(format!("{name}.png")),
-            n => PathBuf::from(format!("{name}-{n}.png")),
-        };
-        match File::create_new(&path) {
-            Ok(file) => return Ok((file, path)),
-            Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => number += 1,
-            Err(error) => return Err(error),
-        }
-    }
 }
 
 impl ApplicationHandler<Wake> for App {

@@ -1,5 +1,6 @@
 //! What the window is told, and what it asks for.
 
+use crate::face::Request;
 use crate::keys::Key;
 use crate::picture::Picture;
 use loschmidt_runner::deck::{Command, Report};
@@ -50,19 +51,6 @@ pub enum Button {
     Left,
     /// The second.
     Right,
-}
-
-/// What is to be opened.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Request {
-    /// A scene of the catalogue, a scene file or the directory of a run.
-    pub name: String,
-    /// Overrides `key=value`.
-    pub set: Vec<String>,
-    /// Threads; `None` for as many as there are processors.
-    pub threads: Option<usize>,
-    /// Whether the other arithmetic is played beside it.
-    pub beside: bool,
 }
 
 /// What the window asks for.

@@ -25,14 +25,15 @@ mod update;
 
 pub use compose::compose;
 pub use error::WindowError;
-pub use message::{Button, Effect, Message, Mouse, Request};
+pub use message::{Button, Effect, Message, Mouse};
 pub use places::Places;
-pub use state::{Drag, Kept, Notice, Other, Overlay, Stage, State, Tone, Ways};
+pub use state::{Drag, Other, Overlay, Stage, State, Ways};
 pub use update::update;
 
 use crate::colour::Theme;
 use crate::colouring::Colouring;
 use crate::draw::Look;
+use crate::face::Request;
 use crate::picture::Picture;
 use app::{App, Wake};
 use clap::{Args, ValueEnum};
@@ -149,7 +150,7 @@ pub fn run(
     // What cannot be read is said before there is a window.
     let request = arguments.request();
     let picture = arguments.tint.as_deref().map(Picture::open).transpose()?;
-    let opening = app::opening(&request, options)?;
+    let opening = request.opening(options)?;
     if request.beside && opening.recorded.is_some() {
         return Err(WindowError::Beside(request.name));
     }

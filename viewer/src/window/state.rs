@@ -1,8 +1,8 @@
 //! The state of the window: everything that it shows.
 
-use super::message::Request;
 use crate::colour::Rgb;
 use crate::draw::Look;
+use crate::face::{Kept, Notice, Request, is_unsaved};
 use crate::history::History;
 use crate::home::Home;
 use crate::picture::Picture;
@@ -10,31 +10,8 @@ use crate::track::Track;
 use loschmidt_core::Fault;
 use loschmidt_runner::deck::{Arrival, Beside, Moment, Opened, Status};
 use loschmidt_runner::{Arrow, Frame};
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
-
-/// How a notice is meant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tone {
-    /// It was done.
-    Done,
-    /// It was done, and something must be known of it.
-    Warning,
-    /// It was not done.
-    Refused,
-}
-
-/// A line that stays for some seconds.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Notice {
-    /// How it is meant.
-    pub tone: Tone,
-    /// What it says.
-    pub text: String,
-    /// When it goes.
-    pub until: Duration,
-}
 
 /// What lies over the rest.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -159,19 +136,6 @@ impl Stage {
     }
 }
 
-/// What was kept last: nothing has happened since if it is still so.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
-    /// The directory.
-    pub path: PathBuf,
-    /// Steps from home.
-    pub position: i64,
-    /// Direction of motion.
-    pub arrow: Arrow,
-    /// How often the state had been changed by hand.
-    pub meddling: usize,
-}
-
 /// A drag of the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Drag {
@@ -235,14 +199,7 @@ impl State {
         let Some(stage) = &self.stage else {
             return false;
         };
-        let status = &stage.status;
-        let somewhere = status.position != 0 || !status.meddling.is_empty();
-        let kept = self.kept.as_ref().is_some_and(|kept| {
-            kept.position == status.position
-                && kept.arrow == status.arrow
-                && kept.meddling == status.meddling.len()
-        });
-        somewhere && !kept
+        is_unsaved(&stage.status, self.kept.as_ref())
     }
 
     /// The words on the window's frame.

@@ -1,8 +1,9 @@
 //! Below the picture: the bar of time, what the simulation does, and the keys that one needs most.
 
 use super::places::Places;
-use super::state::{Stage, State, Tone};
+use super::state::{Stage, State};
 use crate::colour::{Rgb, Theme};
+use crate::face::Tone;
 use crate::keys::{self, Action};
 use crate::plot::number;
 use crate::raster::{Mask, Pixels, Rect};

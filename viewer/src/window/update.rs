@@ -1,20 +1,17 @@
 //! How the state changes, and what is asked for: without a clock, a file or a window.
 
-use super::message::{Button, Effect, Message, Mouse, Request};
+use super::message::{Button, Effect, Message, Mouse};
 use super::places::Places;
-use super::state::{Drag, Kept, Notice, Overlay, Stage, State, Tone};
+use super::state::{Drag, Overlay, Stage, State};
 use crate::camera::{Projection, View};
-use crate::colour::{Colormap, Theme};
+use crate::colour::Theme;
 use crate::colouring::Colouring;
+use crate::face::{Kept, Notice, Request, Tone, meddled, next_colormap, next_colouring, turned};
 use crate::keys::{self, Action, Key};
 use loschmidt_core::Reversibility;
-use loschmidt_runner::deck::{Beside, Command, Meddling, Perturbation, Report, faster, slower};
-use loschmidt_runner::{ArithmeticKind, Arrow, Frame};
+use loschmidt_runner::deck::{Beside, Command, Report, faster, slower};
+use loschmidt_runner::{ArithmeticKind, Frame};
 use std::path::Path;
-use std::time::Duration;
-
-/// How long a notice stays.
-const STAYS: Duration = Duration::from_secs(6);
 
 /// Magnification of a notch of the wheel.
 const NOTCH: f64 = 1.15;
@@ -75,11 +72,7 @@ fn reuse(frame: Option<Frame>) -> Vec<Effect> {
 }
 
 fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
-    state.notice = Some(Notice {
-        tone,
-        text: text.into(),
-        until: state.now + STAYS,
-    });
+    state.notice = Some(Notice::new(tone, text, state.now));
 }
 
 /// Takes a report into the state; the picture that a new one has replaced.
@@ -140,22 +133,11 @@ fn on_report(state: &mut State, report: Report) -> Option<Frame> {
         Report::Turned(arrow) => {
             stage.turning = false;
             stage.status.arrow = arrow;
-            let float = stage.status.arithmetic == ArithmeticKind::Float;
-            let (tone, text) = match arrow {
-                Arrow::Backward if float => (
-                    Tone::Warning,
-                    "time reversed, in floating point: these sums do not lead back home",
-                ),
-                Arrow::Backward => (
-                    Tone::Done,
-                    "time reversed: every velocity has changed its sign",
-                ),
-                Arrow::Forward => (Tone::Done, "time runs forward again"),
-            };
+            let (tone, text) = turned(arrow, stage.status.arithmetic);
             tell(state, tone, text);
         }
         Report::Meddled(meddling) => {
-            let text = meddled(stage, &meddling);
+            let text = meddled(&meddling, stage.opened.length_quantum);
             tell(state, Tone::Warning, text);
         }
         Report::Arrived(arrival) => state.banner = Some(arrival),
@@ -172,30 +154,12 @@ fn on_report(state: &mut State, report: Report) -> Option<Frame> {
         }
         Report::Kept(path) => {
             let text = format!("saved; open it with  loschmidt view {}", path.display());
-            state.kept = Some(Kept {
-                path,
-                position: stage.status.position,
-                arrow: stage.status.arrow,
-                meddling: stage.status.meddling.len(),
-            });
+            state.kept = Some(Kept::new(path, &stage.status));
             tell(state, Tone::Done, text);
         }
         Report::NotKept(why) => tell(state, Tone::Refused, why),
     }
     None
-}
-
-fn meddled(stage: &Stage, meddling: &Meddling) -> String {
-    match meddling.what {
-        Perturbation::Flipped(particle) => {
-            let quantum = stage.opened.length_quantum;
-            format!("particle {particle}: last bit flipped, it stands {quantum:.1e} m aside")
-        }
-        Perturbation::Switched(ArithmeticKind::Float) => {
-            "floating point from here on: the same terms, their sums rounded".to_owned()
-        }
-        Perturbation::Switched(ArithmeticKind::Fixed) => "fixed point from here on".to_owned(),
-    }
 }
 
 fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
@@ -341,28 +305,6 @@ fn part(state: &mut State, [right, up]: [f64; 2]) {
     let (width, height) = (places.field.width as f64, places.field.height as f64);
     let by = [-right * 0.1 * width, up * 0.1 * height];
     drag_view(state, by);
-}
-
-/// The measured ones in turn, and that of the picture where there is one.
-fn next_colouring(now: &Colouring, tint: Option<Colouring>) -> Colouring {
-    let all = Colouring::MEASURED;
-    match (all.iter().position(|c| c == now), tint) {
-        (Some(place), Some(tint)) if place + 1 == all.len() => tint,
-        (Some(place), _) => all[(place + 1) % all.len()].clone(),
-        (None, _) => all[0].clone(),
-    }
-}
-
-/// The one that suits the colouring, and then all of them in turn.
-fn next_colormap(now: Option<Colormap>) -> Option<Colormap> {
-    let all = Colormap::ALL;
-    match now {
-        None => Some(all[0]),
-        Some(map) => {
-            let place = all.iter().position(|m| *m == map).unwrap_or(0);
-            all.get(place + 1).copied()
-        }
-    }
 }
 
 fn on_mouse(state: &mut State, mouse: Mouse, at: [f64; 2]) -> Vec<Effect> {

@@ -2,10 +2,11 @@
 
 use super::Bench;
 use crate::dashboard::message::{Choice, Effect, Message, Mouse};
-use crate::dashboard::state::{Overlay, Panel, Tone};
+use crate::dashboard::state::{Overlay, Panel};
 use crate::dashboard::view::Areas;
 use loschmidt_runner::deck::{Command, Report};
 use loschmidt_runner::{ArithmeticKind, Arrow};
+use loschmidt_viewer::face::Tone;
 use loschmidt_viewer::{Colouring, Key, Projection};
 
 fn drop() -> Bench {

@@ -1,11 +1,12 @@
 //! The foot: the bar of time, the notice, the keys that one needs most.
 
-use super::super::state::{Notice, Stage, Tone};
+use super::super::state::Stage;
 use super::ink::Ink;
 use super::numbers::{count, short};
 use super::{Areas, Piece, width, write, write_right};
 use loschmidt_runner::Arrow;
 use loschmidt_viewer::Action;
+use loschmidt_viewer::face::{Notice, Tone};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
