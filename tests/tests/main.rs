@@ -22,5 +22,6 @@ mod reversal;
 mod run_conservation;
 mod run_dam_break;
 mod run_faults;
+mod setup_errors;
 mod snapshot_bytes;
 mod standard;
