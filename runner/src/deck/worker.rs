@@ -1,12 +1,14 @@
 //! The thread of a deck.
 
+mod motion;
+mod orders;
+
 use super::Wishes;
 use super::beside::Companion;
 use super::clock::{Clock, suggested_pace};
 use super::keep::Keeper;
 use super::messages::{
-    Arrival, Beside, Command, Meddling, Moment, Opened, Perturbation, Refusal, Report, Seek, Shot,
-    Status,
+    Arrival, Beside, Command, Meddling, Moment, Opened, Report, Seek, Shot, Status,
 };
 use super::opening::{Opening, Recorded};
 use super::waypoints::Waypoints;
@@ -15,8 +17,7 @@ use crate::frame::Frame;
 use crate::player::{Arrow, Player};
 use crate::run::{Plan, Row, RunError};
 use crate::saved::{ArithmeticKind, SavedState};
-use loschmidt_core::{Fault, Reversibility};
-use std::ops::ControlFlow;
+use loschmidt_core::Fault;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
@@ -219,117 +220,9 @@ impl Worker {
         }
     }
 
-    /// Takes the steps that are due; how long there is nothing to do.
-    fn go_on(&mut self) -> Duration {
-        const IDLE: Duration = Duration::from_secs(3600);
-        if self.seek.is_some() {
-            self.seek_piece();
-            return Duration::ZERO;
-        }
-        if !self.playing || self.at_start() {
-            return IDLE;
-        }
-        let now = Instant::now();
-        match self.clock.due(now) {
-            Err(wait) => wait,
-            Ok(due) => {
-                let steps = due.min(self.piece(now)).min(self.room());
-                match self.player.advance(steps) {
-                    Ok(()) => {
-                        self.beside(|companion| companion.advance(steps));
-                        self.took(steps, now);
-                        self.moved(self.player.arrow());
-                    }
-                    Err(fault) => self.fail(fault),
-                }
-                Duration::ZERO
-            }
-        }
-    }
-
-    /// Steps in a piece that begins now: fewer where a picture is due before its end.
-    fn piece(&self, now: Instant) -> u64 {
-        let time = match self.due.map(|due| due.saturating_duration_since(now)) {
-            // The face is late with the last one: it may be ready any moment.
-            Some(Duration::ZERO) => PIECE / 8,
-            Some(time) => time.min(PIECE),
-            None => PIECE,
-        };
-        (time.as_secs_f64() / self.step_time).round().max(1.0) as u64
-    }
-
-    /// So many steps were taken since.
-    fn took(&mut self, steps: u64, since: Instant) {
-        /// Weight of the latest piece.
-        const LATEST: f64 = 0.25;
-        let now = Instant::now();
-        if steps > 0 {
-            let took = now.duration_since(since).as_secs_f64() / steps as f64;
-            self.step_time += LATEST * (took.max(1e-7) - self.step_time);
-        }
-        self.clock.took(steps, now);
-    }
-
     /// Time has been turned, and the start reached.
     fn at_start(&self) -> bool {
         self.player.arrow() == Arrow::Backward && self.player.position() <= 0
-    }
-
-    /// Steps to the next row or to the start, whichever comes first.
-    fn room(&self) -> u64 {
-        let position = self.player.position();
-        let steps = match self.player.arrow() {
-            Arrow::Forward => self.every - position.rem_euclid(self.every),
-            Arrow::Backward => match position.rem_euclid(self.every) {
-                0 => self.every,
-                past => past,
-            }
-            .min(position),
-        };
-        steps.max(1) as u64
-    }
-
-    /// Goes on with a seek, to the next row at most.
-    fn seek_piece(&mut self) {
-        let Some(seek) = self.seek else { return };
-        let position = self.player.position();
-        let travel = if seek.target < position {
-            Arrow::Backward
-        } else {
-            Arrow::Forward
-        };
-        let began = Instant::now();
-        let past = position.rem_euclid(self.every);
-        let next = match travel {
-            Arrow::Forward => (position - past + self.every).min(seek.target),
-            Arrow::Backward if past == 0 => (position - self.every).max(seek.target),
-            Arrow::Backward => (position - past).max(seek.target),
-        };
-        let piece = self.piece(began);
-        let next = next.clamp(position - piece as i64, position + piece as i64);
-        match self.player.seek(next, piece, |_| ControlFlow::Continue(())) {
-            Ok(()) => {}
-            Err(crate::player::PlayerError::Fault(fault)) => return self.fail(fault),
-            Err(why) => {
-                self.seek = None;
-                return (self.tell)(Report::Refused(why.into()));
-            }
-        }
-        self.beside(|companion| companion.walk(next - position));
-        self.took(next.abs_diff(position), began);
-        let ended = next == seek.target;
-        if ended {
-            self.seek = None;
-        }
-        self.moved(travel);
-        if ended {
-            if next.rem_euclid(self.every) != 0 {
-                self.measure(travel, false);
-            }
-            self.stand();
-            (self.tell)(Report::SeekEnded(true));
-            self.report();
-        }
     }
 
     /// Has the player in the other arithmetic do something, unless its numbers have ended.
@@ -445,122 +338,6 @@ impl Worker {
         self.stand();
         (self.tell)(Report::Fault(fault));
         self.report();
-    }
-
-    fn obey(&mut self, command: Command) {
-        match command {
-            Command::Play(play) => self.play(play),
-            Command::Turn => self.turn(),
-            Command::StepBy(steps) => {
-                let under_way = self.seek.map(|seek| seek.target);
-                self.seek_to(under_way.unwrap_or(self.player.position()) + steps);
-            }
-            Command::Seek(target) => self.seek_to(target),
-            Command::Cancel => {
-                if self.seek.take().is_some() {
-                    self.pause();
-                    (self.tell)(Report::SeekEnded(false));
-                }
-            }
-            Command::Pace(pace) => {
-                self.pace = pace;
-                self.clock.set_rate(pace / self.player.scene().time_step());
-            }
-            Command::Reuse(frame) => {
-                self.spare = Some(frame);
-                return;
-            }
-            Command::Flip(particle) => {
-                self.player.flip_last_bit(particle);
-                self.meddled(Perturbation::Flipped(particle));
-            }
-            Command::Switch(arithmetic) => match self.player.switch_arithmetic(arithmetic) {
-                Ok(()) => self.meddled(Perturbation::Switched(arithmetic)),
-                Err(why) => (self.tell)(Report::Refused(why.into())),
-            },
-            Command::Keep { path, rows } => {
-                let report = match self.keeper.keep(&mut self.player, &path, &rows) {
-                    Ok(()) => Report::Kept(path),
-                    Err(why) => Report::NotKept(why.to_string()),
-                };
-                (self.tell)(report);
-            }
-        }
-        self.report();
-    }
-
-    fn play(&mut self, play: bool) {
-        self.seek = None;
-        if play {
-            self.playing = true;
-            self.clock.restart(Instant::now());
-        } else {
-            self.pause();
-        }
-    }
-
-    fn pause(&mut self) {
-        self.playing = false;
-        self.stand();
-        let travel = self.player.arrow();
-        self.measure(travel, false);
-    }
-
-    fn turn(&mut self) {
-        // Floating point may turn: to see it fail is an experiment. What has no way back may not.
-        let returns = matches!(
-            self.player.reversibility(),
-            Reversibility::BitExact | Reversibility::UpToRounding
-        );
-        if let (false, Err(why)) = (returns, self.player.can_seek()) {
-            return (self.tell)(Report::Refused(why.into()));
-        }
-        self.seek = None;
-        self.player.turn();
-        if let Some(companion) = &mut self.companion {
-            companion.turn();
-        }
-        self.keep_good();
-        self.stand();
-        (self.tell)(Report::Turned(self.player.arrow()));
-    }
-
-    fn seek_to(&mut self, target: i64) {
-        let position = self.player.position();
-        if target < 0 && position == 0 && self.seek.is_none() {
-            return (self.tell)(Report::Refused(Refusal::Start));
-        }
-        let target = target.max(0);
-        if (target < position || self.player.arrow() == Arrow::Backward)
-            && let Err(why) = self.player.can_seek()
-        {
-            return (self.tell)(Report::Refused(why.into()));
-        }
-        self.playing = false;
-        self.clock.restart(Instant::now());
-        if target != position {
-            self.seek = Some(Seek {
-                from: position,
-                target,
-            });
-        } else {
-            self.pause();
-            (self.tell)(Report::SeekEnded(true));
-        }
-    }
-
-    fn meddled(&mut self, what: Perturbation) {
-        let meddling = Meddling {
-            what,
-            position: self.player.position(),
-            time: self.player.time(),
-        };
-        self.meddling.push(meddling);
-        // One particle at least is astray from now on, if any way is known.
-        self.astray = self.astray.map(|n| n.max(1));
-        self.keep_good();
-        self.stand();
-        (self.tell)(Report::Meddled(meddling));
     }
 
     fn status(&self) -> Status {
