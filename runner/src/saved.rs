@@ -5,9 +5,11 @@
 
 use crate::scene::InitialState;
 use loschmidt_core::Scale;
+use serde::{Deserialize, Serialize};
 
 /// Which arithmetic the words belong to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ArithmeticKind {
     /// Words are fixed-point integers.
     #[default]

@@ -301,3 +301,54 @@ fn where_the_numbers_end_the_last_good_state_is_shown() {
     watched.deck.send(Command::Seek(0));
     assert!(watched.arrival().comparison.is_exact());
 }
+
+#[test]
+fn what_was_done_by_hand_is_still_known_when_it_is_opened_again() {
+    let place = tempfile::tempdir().expect("a directory");
+    let path = place.path().join("kept");
+    let watched = Watched::open("dam-break", &SET, 1e-9);
+    watched.seek(100);
+    watched.deck.send(Command::Flip(7));
+    watched.deck.send(Command::Switch(ArithmeticKind::Float));
+    watched.digest(&path);
+    let status = watched.until(|report| match report {
+        Report::Status(status) => Some(status),
+        _ => None,
+    });
+    drop(watched);
+    assert_eq!(status.meddling.len(), 2);
+
+    let again = Watched::open(path.to_str().expect("UTF-8"), &[], 1e-9);
+    let opened = again.until(|report| match report {
+        Report::Opened(opened) => Some(opened),
+        _ => None,
+    });
+    assert_eq!(opened.status.meddling, status.meddling);
+}
+
+#[test]
+fn rows_on_the_way_out_are_the_same_whichever_way_the_arrow_points() {
+    let watched = Watched::open("dam-break", &SET, 1e-9);
+    let row_at = |position: i64| {
+        watched.until(|report| match report {
+            Report::Moment(m) if m.regular && m.row.position == position => Some(m.row),
+            _ => None,
+        })
+    };
+    let every = watched.until(|report| match report {
+        Report::Opened(opened) => Some(opened.row_every),
+        _ => None,
+    });
+    watched.deck.send(Command::Seek(3 * every));
+    let out = row_at(3 * every);
+    assert!(out.momentum_y_quanta < 0, "the water falls");
+    watched.until(|report| matches!(report, Report::SeekEnded(true)).then_some(()));
+    watched.seek(0);
+    watched.deck.send(Command::Turn);
+    watched.deck.send(Command::Seek(3 * every));
+    let again = row_at(3 * every);
+    assert_eq!((again.leg, again.position), (1, 3 * every));
+    assert_eq!(again.momentum_quanta(), out.momentum_quanta());
+    assert_eq!(again.angular_momentum_z, out.angular_momentum_z);
+    assert_eq!(again.kinetic, out.kinetic);
+}

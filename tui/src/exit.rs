@@ -117,6 +117,7 @@ impl From<MovieError> for Failure {
             | MovieError::Ffmpeg { .. } => OUTPUT,
             MovieError::Picture { .. }
             | MovieError::Unfinished(_)
+            | MovieError::Watched(_)
             | MovieError::FewFrames { .. }
             | MovieError::NoFrames(_) => USAGE,
             MovieError::Fault { .. } => RANGE,

@@ -58,6 +58,30 @@ fn what_is_left_on_the_way_can_be_opened_again() {
 }
 
 #[test]
+fn what_was_saved_is_not_touched_again() {
+    let place = Place::new();
+    let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (120, 40));
+    terminal.wait_for("step 2");
+    terminal.type_keys(" ");
+    terminal.wait_for("paused");
+    terminal.type_keys("s");
+    terminal.wait_for("runs/dam-break-1");
+    let saved = place
+        .path()
+        .join("runs/dam-break-1/snapshots/latest.snapshot");
+    let before = std::fs::read(&saved).expect("a snapshot");
+    terminal.type_keys(&"\x1b[6~".repeat(10));
+    terminal.wait_for("step 1,0");
+    terminal.type_keys("q");
+    assert_eq!(terminal.ended_and_restored(), 0);
+    let shown = terminal.text();
+    assert!(shown.contains("loschmidt tui runs/dam-break-2"), "{shown}");
+    assert!(std::fs::read(&saved).expect("a snapshot") == before);
+    let told = |n: u32| place.manifest(&format!("runs/dam-break-{n}"))["steps"].as_u64();
+    assert!(told(2) > told(1));
+}
+
+#[test]
 fn a_finished_run_is_opened_at_its_end() {
     let place = Place::new();
     place.run(

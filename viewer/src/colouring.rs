@@ -102,7 +102,16 @@ impl Colouring {
                 let swing = round_number(home.reference_density * u2);
                 [-swing, swing]
             }
-            Self::InitialHeight => [home.fluid.low[home.up], home.fluid.high[home.up]],
+            Self::InitialHeight => {
+                let (low, high) = (home.fluid.low[home.up], home.fluid.high[home.up]);
+                // The bottom of a basin is at 0 m, whatever rounding has made of it.
+                let low = if low.abs() < 1e-9 * (high - low) {
+                    0.0
+                } else {
+                    low
+                };
+                [low, high]
+            }
             Self::Displacement => {
                 let largest = home.fluid.size().into_iter().fold(0.0, f64::max);
                 [0.0, round_number(largest)]

@@ -71,7 +71,7 @@ impl Kept {
             path,
             position: recorded.position,
             arrow: recorded.arrow,
-            meddling: 0,
+            meddling: recorded.meddling.len(),
         }
     }
 

@@ -77,7 +77,13 @@ impl Track {
             .filter(|row| turn.is_none_or(|turn| row.position <= turn));
         let mut rows: Vec<Row> = out.chain(&self.back).cloned().collect();
         let farthest = turn.unwrap_or(0);
+        let turned = self.back.first().map_or(0.0, |row| row.time_s);
         for row in &mut rows {
+            row.elapsed_s = if row.leg == 2 {
+                2.0 * turned - row.time_s
+            } else {
+                row.time_s
+            };
             row.step = if row.leg == 2 {
                 (2 * farthest - row.position).unsigned_abs()
             } else {

@@ -71,7 +71,13 @@ impl Companion {
             Arrow::Forward => 1,
             Arrow::Backward => 2,
         };
-        let row = Box::new(Row::measure(&mut self.player, leg)?);
+        let row = Row::measure(&mut self.player, leg)?;
+        // A seek goes against the arrow without turning it.
+        let row = match travel == self.player.arrow() {
+            true => row,
+            false => row.turned(),
+        };
+        let row = Box::new(row);
         Ok(Report::Beside(Beside::Row { row, travel }))
     }
 

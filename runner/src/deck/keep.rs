@@ -1,5 +1,6 @@
 //! Leaving a state behind, to be opened again.
 
+use super::messages::Meddling;
 use crate::output::{Manifest, OutputError, RunDirectory, Snapshot, Status};
 use crate::player::{Arrow, Player};
 use crate::run::{Digests, Plan, Row, scene_hash};
@@ -18,6 +19,7 @@ impl Keeper {
         player: &mut Player,
         path: &Path,
         rows: &[Row],
+        meddling: &[Meddling],
     ) -> Result<(), OutputError> {
         if self.path.as_deref() != Some(path) {
             drop(RunDirectory::create(path, false)?);
@@ -50,6 +52,7 @@ impl Keeper {
             arithmetic: options.arithmetic.name().to_owned(),
             executor: options.executor.name().to_owned(),
             threads: options.threads.get(),
+            meddling: meddling.to_vec(),
             failure: None,
             digest: Digests {
                 initial: player.home_digest().to_string(),

@@ -8,6 +8,7 @@ use crate::scene::Scene;
 use crate::simulation::{BuildError, Options};
 use loschmidt_core::diagnostics::SpeedHistogram;
 use loschmidt_core::{Digest, Fault, Reversibility};
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -183,7 +184,7 @@ pub struct Moment {
 }
 
 /// A change of the state by hand.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Meddling {
     /// What was done.
     pub what: Perturbation,
@@ -194,7 +195,8 @@ pub struct Meddling {
 }
 
 /// What was done.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Perturbation {
     /// The last bit of the first coordinate of this particle was flipped.
     Flipped(u64),

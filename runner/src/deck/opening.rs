@@ -1,5 +1,6 @@
 //! What a deck plays: a scene from its start, or an earlier run from where it was left.
 
+use super::messages::Meddling;
 use crate::output::{OutputError, RunDirectory, Snapshot};
 use crate::player::{Arrow, Player};
 use crate::run::{Row, RunError, scene_hash};
@@ -36,6 +37,8 @@ pub struct Recorded {
     pub arrow: Arrow,
     /// Its series so far.
     pub rows: Vec<Row>,
+    /// How it was changed by hand since it last was at home.
+    pub meddling: Vec<Meddling>,
 }
 
 /// Why there is nothing to play.
@@ -129,6 +132,7 @@ impl Opening {
                 position: latest.position,
                 arrow: latest.arrow,
                 rows,
+                meddling: manifest.meddling,
             })),
             pace: None,
         })

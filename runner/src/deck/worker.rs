@@ -166,6 +166,7 @@ impl Worker {
         let rows = match recorded {
             None => Vec::new(),
             Some(recorded) => {
+                self.meddling = recorded.meddling;
                 self.player.switch_arithmetic(arithmetic)?;
                 self.player
                     .restore(&recorded.state, recorded.position, recorded.arrow)?;
@@ -272,6 +273,11 @@ impl Worker {
         let (row, histogram) = match measured {
             Ok(measured) => measured,
             Err(fault) => return self.fail(fault),
+        };
+        // A seek goes against the arrow without turning it.
+        let row = match travel == self.player.arrow() {
+            true => row,
+            false => row.turned(),
         };
         if regular {
             self.keep_good();

@@ -1,5 +1,6 @@
 //! `manifest.json`: what a run directory is, for people and for `resume`.
 
+use crate::deck::Meddling;
 use crate::run::{Digests, Outcome};
 use serde::{Deserialize, Serialize};
 
@@ -41,6 +42,9 @@ pub struct Manifest {
     /// What ended a failed run.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub failure: Option<String>,
+    /// How a user who watched it changed the state by hand.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub meddling: Vec<Meddling>,
     /// The digests known so far.
     pub digest: Digests,
     /// The result of a finished run; written, never read back.

@@ -53,7 +53,7 @@ pub enum RunError {
         failed: bool,
     },
     /// The directory was left by a dashboard, whose user goes back and forth as a plan does not.
-    #[error("{} was left by the dashboard: open it with `loschmidt tui`", .0.display())]
+    #[error("{} was left by the dashboard or the window: open it with `loschmidt tui` or `loschmidt view`", .0.display())]
     Watched(PathBuf),
     /// A snapshot of another scene.
     #[error("{} was taken of another scene than the scene.toml beside it", .0.display())]

@@ -359,6 +359,7 @@ impl Run {
             arithmetic: options.arithmetic.name().to_owned(),
             executor: options.executor.name().to_owned(),
             threads: options.threads.get(),
+            meddling: Vec::new(),
             failure,
             digest: Digests {
                 initial: self.player.home_digest().to_string(),

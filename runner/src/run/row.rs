@@ -107,6 +107,26 @@ impl Row {
         }
     }
 
+    /// The row of the same state with every velocity turned: momenta change their sign.
+    #[must_use]
+    pub(crate) fn turned(mut self) -> Self {
+        for sum in [
+            &mut self.momentum_x_quanta,
+            &mut self.momentum_y_quanta,
+            &mut self.momentum_z_quanta,
+        ] {
+            *sum = -*sum;
+        }
+        for moment in [
+            &mut self.angular_momentum_x,
+            &mut self.angular_momentum_y,
+            &mut self.angular_momentum_z,
+        ] {
+            *moment = -*moment;
+        }
+        self
+    }
+
     /// Σ v in speed quanta.
     #[must_use]
     pub fn momentum_quanta(&self) -> [i128; 3] {

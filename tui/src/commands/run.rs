@@ -6,10 +6,13 @@ use crate::exit::{Failure, NOT_EXACT};
 use crate::progress::{Display, announce};
 use crate::report;
 use loschmidt_runner::output::{Manifest, OutputError, free_directory};
+use loschmidt_runner::run::Outcome;
 use loschmidt_runner::scene;
 use loschmidt_runner::{ExecutorKind, Options, Run, RunError};
+use serde::Serialize;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::num::NonZeroUsize;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -70,6 +73,14 @@ fn earlier(manifest: &Manifest) -> Options {
     }
 }
 
+/// The result and where all of it is.
+#[derive(Serialize)]
+struct Printed<'a> {
+    directory: Option<&'a Path>,
+    #[serde(flatten)]
+    outcome: &'a Outcome,
+}
+
 fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<ExitCode, Failure> {
     let (done, total) = (run.player().steps_taken(), run.plan().total());
     if !work.quiet {
@@ -81,7 +92,11 @@ fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<Exit
     let outcome = result?;
     let text = if work.json {
         // Shortest digits that read back to the same number; no NaN or infinity can occur in it.
-        serde_json::to_string(&outcome).map_err(std::io::Error::from)? + "\n"
+        let printed = Printed {
+            directory: run.path(),
+            outcome: &outcome,
+        };
+        serde_json::to_string(&printed).map_err(std::io::Error::from)? + "\n"
     } else {
         let mut text = String::new();
         if !work.quiet {

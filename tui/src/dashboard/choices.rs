@@ -34,7 +34,7 @@ pub fn all() -> Vec<Choice> {
             Status::Interrupted => "run, interrupted",
             Status::Finished => "run, finished",
             Status::Failed => "run whose numbers ended",
-            Status::Watched => "left from the dashboard",
+            Status::Watched => "left by a watcher",
         };
         choices.push(Choice {
             name: path.display().to_string(),

@@ -33,7 +33,7 @@ use loschmidt_viewer::{Look, Pane, draw, png};
 use message::{Effect, Message};
 use state::State;
 use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -241,18 +241,13 @@ impl Face {
         Ok(path)
     }
 
-    /// Has the state kept in a directory: that of this session once there is one.
+    /// Has the state kept in a new directory: what was kept before stays as it was.
     fn keep(&mut self) {
         let (Some(stage), Some(deck)) = (&self.state.stage, &self.deck) else {
             return;
         };
-        let ours = self.state.kept.as_ref().map(|kept| kept.path.clone());
-        let opened = Path::new(&self.state.request.name);
-        let path = ours
-            .filter(|path| path != opened)
-            .unwrap_or_else(|| free_directory(&stage.home.name));
         deck.send(Command::Keep {
-            path,
+            path: free_directory(&stage.home.name),
             rows: stage.track.rows(),
         });
     }
@@ -264,9 +259,6 @@ impl Face {
         }
         self.settle(inbox);
         if self.state.unsaved() {
-            self.state
-                .kept
-                .take_if(|kept| kept.path == Path::new(&self.state.request.name));
             self.keep();
             let end = Instant::now() + PATIENCE;
             loop {

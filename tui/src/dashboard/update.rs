@@ -489,9 +489,8 @@ fn panel_key(panel: &mut Panel, key: Key) -> PanelKey {
             panel.fresh = false;
             panel.values[panel.field].pop();
         }
-        Key::Char(c)
-            if panel.field != Panel::INTEGRATOR && (c.is_ascii_digit() || ".e-+".contains(c)) =>
-        {
+        // Also what no number has in it: an error says more than a key that does nothing.
+        Key::Char(c) if panel.field != Panel::INTEGRATOR && !c.is_control() => {
             let value = &mut panel.values[panel.field];
             if panel.fresh {
                 value.clear();

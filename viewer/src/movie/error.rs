@@ -44,6 +44,9 @@ pub enum MovieError {
     /// A run that is still to come to its end.
     #[error("the run in {} has not finished; go on with\n    loschmidt resume {}", .0.display(), .0.display())]
     Unfinished(PathBuf),
+    /// A directory that a user of the dashboard or the window left.
+    #[error("{} was left by the dashboard or the window, and holds no frames\nhelp: `loschmidt movie {}` makes a movie of its scene", .0.display(), .0.join("scene.toml").display())]
+    Watched(PathBuf),
     /// A run with too few frames.
     #[error(
         "the run in {} stored {stored} frames, and {wanted} pictures were asked for\nhelp: --seconds {} shows each frame once; `loschmidt run --set output.frames={wanted}` stores more, and\n    loschmidt movie {}\nsimulates again",

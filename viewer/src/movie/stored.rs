@@ -40,6 +40,9 @@ impl Stored {
     /// Not a run, or one that has not finished or stored no frames.
     pub fn open(path: &Path) -> Result<Self, MovieError> {
         let manifest = RunDirectory::read_manifest(path).map_err(RunError::from)?;
+        if manifest.status == Status::Watched {
+            return Err(MovieError::Watched(path.to_owned()));
+        }
         if manifest.status != Status::Finished {
             return Err(MovieError::Unfinished(path.to_owned()));
         }

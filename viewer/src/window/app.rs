@@ -195,18 +195,13 @@ impl App {
         Ok(path)
     }
 
-    /// Has the state kept in a directory: that of this session once there is one.
+    /// Has the state kept in a new directory: what was kept before stays as it was.
     fn keep(&mut self) {
         let (Some(stage), Some(deck)) = (&self.state.stage, &self.deck) else {
             return;
         };
-        let ours = self.state.kept.as_ref().map(|kept| kept.path.clone());
-        let opened = Path::new(&self.state.request.name);
-        let path = ours
-            .filter(|path| path != opened)
-            .unwrap_or_else(|| free_directory(&stage.home.name));
         deck.send(Command::Keep {
-            path,
+            path: free_directory(&stage.home.name),
             rows: stage.ways.track.rows(),
         });
     }
@@ -290,8 +285,6 @@ impl App {
         }
         self.settle();
         if self.state.unsaved() {
-            let opened = PathBuf::from(&self.state.request.name);
-            self.state.kept.take_if(|kept| kept.path == opened);
             self.keep();
             let end = Instant::now() + PATIENCE;
             loop {

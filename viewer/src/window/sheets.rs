@@ -159,7 +159,7 @@ fn digests(arrival: &Arrival, theme: &Theme) -> [Line; 2] {
     let line = |name: &str, digest: String| {
         vec![
             Piece::new(0.0, name, theme.faint, Weight::Medium),
-            Piece::new(8.5, digest, theme.text, Weight::Medium),
+            Piece::new(10.5, digest, theme.text, Weight::Medium),
         ]
     };
     [
@@ -187,8 +187,13 @@ fn returned(arrival: &Arrival, theme: &Theme) -> Vec<Line> {
 fn missed(arrival: &Arrival, theme: &Theme) -> Vec<Line> {
     let c = &arrival.comparison;
     let story = format!(
-        "{} particles astray, the farthest {:.1e} m from home",
+        "{} {} astray, the farthest {:.1e} m from home",
         count(c.astray as u64),
+        if c.astray == 1 {
+            "particle"
+        } else {
+            "particles"
+        },
         c.error
     );
     let title = "Time did not come back";

@@ -211,7 +211,7 @@ fn astray(stage: &Stage, theme: &Theme) -> Option<(String, Rgb)> {
 
 /// The keys that one needs most, as many as `fits` finds room for.
 fn hints(stage: &Stage, fits: impl Fn(&str) -> bool) -> String {
-    let play = if stage.status.playing {
+    let play = if stage.status.playing && !stage.status.at_start {
         "pause"
     } else {
         "play"

@@ -39,7 +39,10 @@ impl Worker {
                 Err(why) => (self.tell)(Report::Refused(why.into())),
             },
             Command::Keep { path, rows } => {
-                let report = match self.keeper.keep(&mut self.player, &path, &rows) {
+                let report = match self
+                    .keeper
+                    .keep(&mut self.player, &path, &rows, &self.meddling)
+                {
                     Ok(()) => Report::Kept(path),
                     Err(why) => Report::NotKept(why.to_string()),
                 };

@@ -65,11 +65,19 @@ fn returned(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
 
 fn missed(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
     let c = &arrival.comparison;
+    let particles = if c.astray == 1 {
+        "particle"
+    } else {
+        "particles"
+    };
     let mut lines = vec![
         vec![("TIME DID NOT COME BACK".to_owned(), ink.alarm())],
         Vec::new(),
         vec![
-            (format!("{} particles", count(c.astray as u64)), ink.bold()),
+            (
+                format!("{} {particles}", count(c.astray as u64)),
+                ink.bold(),
+            ),
             (" astray, the farthest ".to_owned(), ink.text()),
             (format!("{} m", short(c.error)), ink.bold()),
             (" from home".to_owned(), ink.text()),

@@ -144,27 +144,40 @@ pub fn hints(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
         (&[Action::Help], "help"),
         (&[Action::Quit], "quit"),
     ];
-    let play = if stage.status.playing {
+    let play = if stage.status.playing && !stage.status.at_start {
         "pause"
     } else {
         "play"
     };
-    let mut rest = area;
-    for (actions, words) in HINTS {
+    let pieces = HINTS.map(|(actions, words)| {
         let keys: Vec<String> = actions.iter().filter_map(|a| key_of(*a)).collect();
-        let pieces = [
+        [
             (format!(" {}", keys.join(" ")), ink.bold()),
             (
                 format!(" {} ", if words.is_empty() { play } else { words }),
                 ink.faint(),
             ),
-        ];
-        let wide: u16 = pieces.iter().map(|(text, _)| super::width(text)).sum();
-        if wide > rest.width {
-            return;
+        ]
+    });
+    let wide = |pieces: &[Piece; 2]| pieces.iter().map(|(text, _)| super::width(text)).sum();
+    // How to get help and how to leave are said wherever there is room for anything.
+    let (others, last) = pieces.split_at(HINTS.len() - 2);
+    let kept: u16 = last.iter().map(wide).sum();
+    let mut rest = area;
+    for pieces in others {
+        let wide: u16 = wide(pieces);
+        if wide + kept > rest.width {
+            break;
         }
-        let end = write(buf, rest, area.y, &pieces);
+        let end = write(buf, rest, area.y, pieces);
         rest = Rect::new(end, area.y, area.right() - end, 1);
+    }
+    for pieces in last {
+        let wide: u16 = wide(pieces);
+        if wide <= rest.width {
+            let end = write(buf, rest, area.y, pieces);
+            rest = Rect::new(end, area.y, area.right() - end, 1);
+        }
     }
 }
 
