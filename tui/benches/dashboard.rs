@@ -157,6 +157,7 @@ mod unix {
         keys.write_all(b"q").expect("a key");
         let taken = began.elapsed();
         child.wait().expect("an end");
+        let run = place.path().join("runs/dam-break-2");
         let steps = steps(&run) - before;
         (
             steps / taken.as_secs_f64(),
