@@ -124,25 +124,6 @@ fn at_home_a_tint_is_the_picture() {
     }
 }
 
-#[test]
-fn more_discs_on_a_pixel_than_its_sums_hold_are_drawn_all_the_same() {
-    // 200,000 particles in one place: sums of 8-bit coverages times 8-bit colours pass 32 bits.
-    let (mut frame, home, _) = after("dam-break", &["particle_spacing=0.1"], 0);
-    let n = 200_000;
-    frame.id = (0..n).collect();
-    frame.position = vec![[0.5, 0.5, 0.0]; n as usize];
-    frame.velocity = vec![[0.0; 3]; n as usize];
-    frame.density = vec![1000.0; n as usize];
-    frame.pressure = vec![0.0; n as usize];
-    let white: Vec<Rgb> = vec![Rgb(0xff_ffff); n as usize];
-    let look = Look {
-        colouring: Colouring::Picture(white.into()),
-        ..Look::default()
-    };
-    let drawn = field(&frame, &home, &look, 100, 100);
-    assert!(drawn.pixels().contains(&0xff_ffff));
-}
-
 /// The particles of a frame in another order: from the middle backwards.
 fn shuffled(frame: &Frame) -> Frame {
     let n = frame.id.len();
@@ -219,21 +200,29 @@ fn a_picture_drawn_over_another_one_is_the_same() {
     assert!(raster.part(below).pixels().iter().all(|&p| p == 0xff_00ff));
 }
 
-#[test]
-fn where_discs_crowd_the_mean_is_still_that_of_all() {
-    // As many black particles as white ones in one place, beyond what single precision adds exactly.
+/// A picture of one place with so many particles of each of these colours.
+fn crowd(colours: [Rgb; 2], each: usize) -> Raster {
     let (mut frame, home, _) = after("dam-break", &["particle_spacing=0.1"], 0);
-    let n = 400_000;
-    frame.id = (0..n).collect();
-    frame.position = vec![[0.5, 0.5, 0.0]; n as usize];
-    frame.velocity = vec![[0.0; 3]; n as usize];
-    frame.density = vec![1000.0; n as usize];
-    frame.pressure = vec![0.0; n as usize];
-    let halves = (0..n).map(|id| Rgb(if id < n / 2 { 0 } else { 0xff_ffff }));
+    let n = 2 * each;
+    frame.id = (0..n as u64).collect();
+    frame.position = vec![[0.5, 0.5, 0.0]; n];
+    frame.velocity = vec![[0.0; 3]; n];
+    frame.density = vec![1000.0; n];
+    frame.pressure = vec![0.0; n];
+    let tint = (0..n).map(|id| colours[id / each]);
     let look = Look {
-        colouring: Colouring::Picture(halves.collect()),
+        colouring: Colouring::Picture(tint.collect()),
         ..Look::default()
     };
-    let drawn = field(&frame, &home, &look, 100, 100);
-    assert!(drawn.pixels().contains(&0x80_8080));
+    field(&frame, &home, &look, 100, 100)
+}
+
+#[test]
+fn where_discs_crowd_the_mean_is_still_that_of_all() {
+    // Far beyond what single precision adds exactly, and beyond 32 bits.
+    let colours = [Rgb(0x01_0203), Rgb(0xff_fdfb)];
+    for each in [1, 1000, 200_000] {
+        let drawn = crowd(colours, each);
+        assert!(drawn.pixels().contains(&0x80_807f), "{each}");
+    }
 }
