@@ -4,7 +4,9 @@
 //! A thread of rayon that finds nothing to do goes to sleep after some microseconds, and waking it
 //! takes some 50 µs on a virtual machine. Measured at 80,000 particles: two threads that may sleep
 //! are 1.57 times as fast as one, two that look for work until the steps are done 1.88 times. They
-//! offer the processor to others whenever they find none, and pause when there is none for a while.
+//! offer the processor to others whenever they find none, pause when there is none for a while, and
+//! give up after some milliseconds. The last is more than thrift: a thread may come to its search in the middle
+//! of a part of the very work, while it waits for others, and the work cannot end before that part does.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
@@ -25,7 +27,8 @@ where
         scope.spawn_broadcast(|_, thread| {
             // This thread gets to its copy while it waits for others.
             let mut search = Search::default();
-            while thread.index() != me && working.load(Ordering::Acquire) {
+            let searches = thread.index() != me;
+            while searches && working.load(Ordering::Acquire) && search.has_hope() {
                 search.go_on();
             }
         });
@@ -78,12 +81,21 @@ impl Search {
     /// processor to whoever waits for it.
     const QUICK: u32 = 1000;
     const PAUSE: Duration = Duration::from_micros(20);
+    /// A pause takes a little longer than asked for: these are some two milliseconds.
+    const PAUSES: u32 = 30;
+
+    /// Work may still come.
+    fn has_hope(&self) -> bool {
+        self.in_vain < Self::QUICK + Self::PAUSES
+    }
 
     fn go_on(&mut self) {
         if rayon::yield_now() == Some(rayon::Yield::Executed) {
             self.in_vain = 0;
-        } else if self.in_vain < Self::QUICK {
-            self.in_vain += 1;
+            return;
+        }
+        self.in_vain = self.in_vain.saturating_add(1);
+        if self.in_vain <= Self::QUICK {
             std::thread::yield_now();
         } else {
             std::thread::sleep(Self::PAUSE);
@@ -97,5 +109,44 @@ struct Finally<R, F: Fn() -> R>(F);
 impl<R, F: Fn() -> R> Drop for Finally<R, F> {
     fn drop(&mut self) {
         self.0();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rayon::prelude::*;
+    use std::sync::Arc;
+    use std::sync::mpsc::channel;
+
+    /// Work in many small parts.
+    fn sum(n: u64) -> u64 {
+        (0..n).into_par_iter().map(|x| x ^ 1).sum()
+    }
+
+    #[test]
+    fn work_ends_however_its_parts_meet_those_of_others() {
+        const TIMES: u64 = 30_000;
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
+        let pool = Arc::new(pool.expect("threads"));
+        let (done, inbox) = channel();
+        // A simulation and one who draws, on the same threads. Where a search never gave up, they met
+        // in a circle of waiting within some thousand times.
+        for draws in [false, true] {
+            let (pool, done) = (Arc::clone(&pool), done.clone());
+            std::thread::spawn(move || {
+                for n in (0..TIMES).map(|n| 2 + n % 64) {
+                    match draws {
+                        true => pool.install(|| sum(n)),
+                        false => pool.install(|| together(|| sum(n) + sum(3))),
+                    };
+                }
+                done.send(())
+            });
+        }
+        for _ in 0..2 {
+            let ended = inbox.recv_timeout(Duration::from_secs(120));
+            ended.expect("an end: the threads wait for one another");
+        }
     }
 }
