@@ -1,15 +1,17 @@
 //! The engine behind every [`Simulation`]: a model, its memory and an executor of known types.
 
+mod pictures;
+
 use crate::executor::{AnyExecutor, ExecutorKind, Rayon};
 use crate::fast::Fast;
 use crate::frame::Frame;
+use crate::points::Points;
 use crate::random::SplitMix64;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::InitialState;
 use crate::simulation::{BuildError, Options, Simulation};
 use crate::storage::Storage;
-use loschmidt_core::model::StateEquation;
-use loschmidt_core::number::{Quantity, Real};
+use loschmidt_core::number::Quantity;
 use loschmidt_core::owned::to_quanta;
 use loschmidt_core::{
     Arithmetic, Diagnostics, Digest, Executor, Fault, Forces, Model, Parameters, Progress,
@@ -17,7 +19,7 @@ use loschmidt_core::{
 };
 use rayon::prelude::*;
 
-/// Fewest particles of a frame worth a thread of their own.
+/// Fewest particles of a copy worth a thread of their own.
 const PART: usize = 4096;
 
 pub(crate) struct Engine<A: Arithmetic, M, const D: usize> {
@@ -98,53 +100,12 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
         self.model.forces()
     }
 
-    /// Fills a frame with the particles at these places, or as they are stored.
-    fn fill(&mut self, frame: &mut Frame, places: Option<&[usize]>) -> Result<(), Fault> {
+    /// Has the densities of the present state in the scratch.
+    fn know_density(&mut self) -> Result<(), Fault> {
         if !self.storage.progress.density_is_current() {
             self.wake();
             self.with_executor(UpdateDensity)?;
         }
-        let p = *self.forces().parameters();
-        let system = self.storage.system();
-        let (state, density) = (&system.state, &system.scratch.density);
-        frame.dimension = D;
-        frame.step = system.progress.step;
-        frame.particle_mass = p.mass;
-        frame.resize(state.len());
-        let (lq, sq) = (p.scale.length_quantum(), p.scale.speed_quantum());
-        let density_quantum = p.scale.density_quantum();
-        let stiffness = p.sound_speed * p.sound_speed * p.reference_density;
-        frame.wall_position.clear();
-        let walls = system.walls.position.iter().map(|x| si(x, lq));
-        frame.wall_position.extend(walls);
-        // Pictures are taken while a run goes on, many a second: every thread takes its part.
-        let lists = (
-            frame.id.par_chunks_mut(PART),
-            frame.position.par_chunks_mut(PART),
-            frame.velocity.par_chunks_mut(PART),
-            frame.density.par_chunks_mut(PART),
-            frame.pressure.par_chunks_mut(PART),
-        );
-        let fill = || {
-            let parts = lists.into_par_iter().enumerate();
-            parts.for_each(
-                |(part, (ids, positions, velocities, densities, pressures))| {
-                    let first = PART * part;
-                    let range = first..first + ids.len();
-                    copy(ids, &range, places, |i| state.id[i]);
-                    copy(positions, &range, places, |i| si(&state.position[i], lq));
-                    copy(velocities, &range, places, |i| si(&state.velocity[i], sq));
-                    copy(densities, &range, places, |i| {
-                        density[i].quanta::<f64>() * density_quantum
-                    });
-                    let equation: StateEquation = p.state_equation;
-                    for (pressure, rho) in pressures.iter_mut().zip(densities) {
-                        *pressure = stiffness * equation.pressure(*rho / p.reference_density);
-                    }
-                },
-            );
-        };
-        on_threads(&self.executor, fill);
         Ok(())
     }
 
@@ -321,14 +282,17 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
     }
 
     fn frame(&mut self) -> Result<Frame, Fault> {
+        self.know_density()?;
         let places = self.places();
-        let mut frame = Frame::default();
-        self.fill(&mut frame, Some(&places))?;
-        Ok(frame)
+        let p = *self.forces().parameters();
+        Ok(pictures::frame(&self.storage.system(), &p, &places))
     }
 
-    fn picture(&mut self, frame: &mut Frame) -> Result<(), Fault> {
-        self.fill(frame, None)
+    fn points(&mut self, points: &mut Points) -> Result<(), Fault> {
+        self.know_density()?;
+        let p = *self.forces().parameters();
+        pictures::points(&self.storage.system(), &p, &self.executor, points);
+        Ok(())
     }
 
     fn backend(&self) -> String {
@@ -365,38 +329,8 @@ fn on_threads(executor: &AnyExecutor, work: impl FnOnce() + Send) {
     }
 }
 
-/// What is at these places of a list, or at the same ones.
-#[inline]
-fn copy<T>(
-    to: &mut [T],
-    range: &std::ops::Range<usize>,
-    places: Option<&[usize]>,
-    of: impl Fn(usize) -> T,
-) {
-    match places {
-        Some(places) => {
-            for (to, &place) in to.iter_mut().zip(&places[range.clone()]) {
-                *to = of(place);
-            }
-        }
-        None => {
-            for (to, place) in to.iter_mut().zip(range.clone()) {
-                *to = of(place);
-            }
-        }
-    }
-}
-
 fn words<'a, Q: Quantity>(values: impl Iterator<Item = &'a Q>) -> Vec<i64> {
     values.map(|v| v.to_word()).collect()
-}
-
-fn si<Q: Quantity, const D: usize>(x: &[Q; D], quantum: f64) -> [f64; 3] {
-    let mut out = [0.0; 3];
-    for (o, x) in out.iter_mut().zip(x) {
-        *o = x.quanta::<f64>().to_f64() * quantum;
-    }
-    out
 }
 
 fn first<const D: usize>(x: [f64; 3]) -> [f64; D] {

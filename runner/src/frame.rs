@@ -10,10 +10,10 @@
 
 use std::io;
 
-/// Picture of a synchronised state, the fluid in the order of its ids; in that of storage where it is for
-/// the eye alone ([`crate::Player::picture`]).
+/// A synchronised state, the fluid in the order of its ids.
 ///
-/// The fluid's lists have one entry per particle, all in the same order.
+/// The fluid's lists have one entry per particle, all in that order. What is drawn of it are its
+/// [`crate::Points`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Dimension of space, 2 or 3.
@@ -43,15 +43,6 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Room for so many particles of the fluid.
-    pub(crate) fn resize(&mut self, particles: usize) {
-        self.id.resize(particles, 0);
-        self.position.resize(particles, [0.0; 3]);
-        self.velocity.resize(particles, [0.0; 3]);
-        self.density.resize(particles, 0.0);
-        self.pressure.resize(particles, 0.0);
-    }
-
     /// Number of fluid and wall particles together.
     pub fn particles(&self) -> usize {
         self.id.len() + self.wall_position.len()

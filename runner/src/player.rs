@@ -6,6 +6,7 @@
 
 use crate::executor::Rayon;
 use crate::frame::Frame;
+use crate::points::Points;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::{InitialState, Scene};
 use crate::setup;
@@ -373,32 +374,28 @@ impl Player {
         self.simulation.pool()
     }
 
-    /// A picture of the present state.
+    /// The present state in SI units, as files are made of it.
     ///
     /// # Errors
     /// As a step.
     pub fn frame(&mut self) -> Result<Frame, Fault> {
         let mut frame = self.simulation.frame()?;
-        self.date(&mut frame);
+        frame.step = self.position.unsigned_abs();
+        frame.time = self.time();
+        frame.elapsed = self.steps_taken() as f64 * self.scene.time_step();
+        frame.way_back = self.arrow == Arrow::Backward;
         Ok(frame)
     }
 
-    /// The same in the memory of an earlier one, its particles as they are stored: by their ids in no
-    /// order.
+    /// What is drawn of it, in the memory of earlier points.
     ///
     /// # Errors
-    /// As a step; the frame is of no use then.
-    pub fn picture(&mut self, frame: &mut Frame) -> Result<(), Fault> {
-        self.simulation.picture(frame)?;
-        self.date(frame);
+    /// As a step; the points are of no use then.
+    pub fn points(&mut self, points: &mut Points) -> Result<(), Fault> {
+        self.simulation.points(points)?;
+        points.step = self.position.unsigned_abs();
+        points.time = self.time();
+        points.way_back = self.arrow == Arrow::Backward;
         Ok(())
-    }
-
-    fn date(&self, frame: &mut Frame) {
-        let dt = self.scene.time_step();
-        frame.step = self.position.unsigned_abs();
-        frame.time = self.time();
-        frame.elapsed = self.steps_taken() as f64 * dt;
-        frame.way_back = self.arrow == Arrow::Backward;
     }
 }

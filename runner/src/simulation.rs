@@ -4,6 +4,7 @@ use crate::engine::Engine;
 use crate::executor::{ExecutorKind, Rayon};
 use crate::fast::Backend;
 use crate::frame::Frame;
+use crate::points::Points;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::InitialState;
 use loschmidt_core::{
@@ -117,12 +118,11 @@ pub trait Simulation: Send {
     /// # Errors
     /// As a step.
     fn frame(&mut self) -> Result<Frame, Fault>;
-    /// The same with the particles as they are stored, in the memory of an earlier frame: what is left
-    /// to do for a picture when many a second are drawn.
+    /// What is drawn of it, in the memory of earlier points.
     ///
     /// # Errors
     /// As a step.
-    fn picture(&mut self, frame: &mut Frame) -> Result<(), Fault>;
+    fn points(&mut self, points: &mut Points) -> Result<(), Fault>;
     /// Gives back memory that only steps need. The next step makes it anew, at the cost of a step or two;
     /// no bit depends on it.
     fn release(&mut self);

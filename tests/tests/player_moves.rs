@@ -2,7 +2,7 @@
 
 use loschmidt_core::{Digest, Reversibility};
 use loschmidt_runner::player::PlayerError;
-use loschmidt_runner::{ArithmeticKind, Arrow, Player};
+use loschmidt_runner::{ArithmeticKind, Arrow, Player, Points};
 use loschmidt_tests::program::{float, player, scene, serial, threads};
 use proptest::prelude::*;
 use std::collections::HashMap;
@@ -132,12 +132,53 @@ fn to_turn_twice_is_to_do_nothing() {
     }
 }
 
+/// The points of a state in the order of the ids.
+fn sorted(player: &mut Player) -> Points {
+    let mut points = Points::default();
+    player.points(&mut points).expect("in range");
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_unstable_by_key(|&place| points.id[place]);
+    let of = |list: &Vec<f32>| match list.is_empty() {
+        true => Vec::new(),
+        false => order.iter().map(|&i| list[i]).collect(),
+    };
+    Points {
+        id: order.iter().map(|&i| points.id[i]).collect(),
+        position: points.position.each_ref().map(of),
+        speed: of(&points.speed),
+        density: of(&points.density),
+        pressure: of(&points.pressure),
+        ..points
+    }
+}
+
+#[test]
+fn points_are_the_particles_of_the_frame_rounded_once() {
+    // 5,000 particles in the plane: more than one part.
+    let scenes = [
+        ("dam-break", &["particle_spacing=0.02"][..]),
+        ("dam-break-3d", &["particle_spacing=0.1"]),
+    ];
+    for (name, set) in scenes {
+        for options in [threads(2), float(serial())] {
+            let mut player = player(scene(name, set), options);
+            player.advance(40).expect("in range");
+            player.turn();
+            player.advance(10).expect("in range");
+            let frame = player.frame().expect("in range");
+            assert_eq!(sorted(&mut player), Points::from(&frame), "{name}");
+            assert!(frame.way_back && frame.step == 30 && frame.time > 0.0);
+        }
+    }
+}
+
 #[test]
 fn looking_changes_nothing() {
     let (mut watched, mut alone) = (small(), small());
     for _ in 0..50 {
         watched.measure().expect("in range");
         watched.frame().expect("in range");
+        watched.points(&mut Points::default()).expect("in range");
         watched.digest();
         watched.compare_with_home();
         let (state, position, arrow) = (watched.save(), watched.position(), watched.arrow());

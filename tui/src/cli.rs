@@ -8,6 +8,7 @@ use loschmidt_reproduce::Target;
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::preset;
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options};
+use loschmidt_viewer::face::MOST_THREADS;
 use loschmidt_viewer::{Colormap, Colouring, Theme};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -394,9 +395,6 @@ pub enum ScenesCommand {
     /// Print a scene with every key, its unit and its meaning
     Print(SceneArguments),
 }
-
-/// Most threads that are started: more than any machine has processors for.
-pub const MOST_THREADS: usize = 1024;
 
 fn threads(text: &str) -> Result<NonZeroUsize, String> {
     match text.parse::<NonZeroUsize>() {

@@ -6,7 +6,7 @@
 //! The window is in the upper left corner of the screen. Exit code 0: all pixels are equal.
 
 use loschmidt_runner::scene::{load, resolve};
-use loschmidt_runner::{Options, Player};
+use loschmidt_runner::{Options, Player, Points};
 use loschmidt_viewer::window::Places;
 use loschmidt_viewer::{Home, Look, Raster, Rect, Rgb, field, png};
 use std::error::Error;
@@ -30,13 +30,9 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let home = Home::new(&scene, &player.frame()?);
         player.advance(step.parse()?)?;
         let rect = field_of(&home, &picture);
-        let ours = field(
-            &player.frame()?,
-            &home,
-            &Look::default(),
-            rect.width,
-            rect.height,
-        );
+        let mut points = Points::default();
+        player.points(&mut points)?;
+        let ours = field(&points, &home, &Look::default(), rect.width, rect.height);
         let n = unequal(&picture.part(rect), &ours);
         println!(
             "PNG and rasteriser at step {step}: {n} of {} pixels differ",

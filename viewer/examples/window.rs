@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         if shot {
             deck.ready();
         }
-        let position = state.stage.as_ref().map_or(0, |stage| stage.frame.step);
+        let position = state.stage.as_ref().map_or(0, |stage| stage.points.step);
         if ended && !turned {
             turned = true;
             deck.send(Command::Turn);

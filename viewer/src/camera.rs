@@ -210,6 +210,16 @@ impl Projection {
         }
     }
 
+    /// In the plane: for either axis of the screen, the factor and the summand that take metres to pixels.
+    pub(crate) fn along_axes(&self) -> [[f64; 2]; 2] {
+        let [w, h] = self.middle;
+        let scale = self.scale();
+        [
+            [scale, w - scale * self.centre.x],
+            [-scale, h + scale * self.centre.y],
+        ]
+    }
+
     /// In the plane: the point (m) at a place on the screen.
     #[must_use]
     pub fn unproject(&self, x: f64, y: f64) -> [f64; 2] {

@@ -2,7 +2,7 @@
 
 use crate::colour::{Colormap, Rgb};
 use crate::home::Home;
-use loschmidt_runner::Frame;
+use loschmidt_runner::Points;
 use std::sync::Arc;
 
 /// What the colour of a particle says.
@@ -120,21 +120,22 @@ impl Colouring {
         }
     }
 
-    /// The number of the particle at this place in the frame's lists, in the legend's unit.
+    /// The number of the particle at this place in the lists, in the legend's unit.
     #[must_use]
-    pub fn value(&self, frame: &Frame, home: &Home, place: usize) -> f64 {
+    pub fn value(&self, points: &Points, home: &Home, place: usize) -> f64 {
         let at_home = |place: usize| {
-            let id = frame.id.get(place).map_or(place, |&id| id as usize);
+            let id = points.id.get(place).map_or(place, |&id| id as usize);
             home.position.get(id).copied().unwrap_or_default()
         };
         match self {
-            Self::Speed => length(frame.velocity[place]),
-            Self::Density => frame.density[place],
-            Self::Pressure => frame.pressure[place],
+            Self::Speed => points.speed[place].into(),
+            Self::Density => points.density[place].into(),
+            Self::Pressure => points.pressure[place].into(),
             Self::InitialHeight => at_home(place)[home.up],
             Self::Displacement => {
-                let (x, h) = (frame.position[place], at_home(place));
-                length(std::array::from_fn(|k| x[k] - h[k]))
+                // At home it is 0: rounded as the points are.
+                let (x, h) = (points.at(place), at_home(place));
+                length(std::array::from_fn(|k| x[k] - f64::from(h[k] as f32)))
             }
             Self::Picture(_) => 0.0,
         }
@@ -166,20 +167,20 @@ fn length(x: [f64; 3]) -> f64 {
 /// Colours by number, with everything looked up beforehand.
 pub(crate) struct Painter<'a> {
     colouring: &'a Colouring,
-    colours: Vec<Rgb>,
+    colours: [Rgb; COLOURS],
     low: f64,
     factor: f64,
 }
 
+/// Colours of a map that are told apart.
+const COLOURS: usize = 256;
+
 impl<'a> Painter<'a> {
     pub fn new(colouring: &'a Colouring, colormap: Colormap, range: [f64; 2]) -> Self {
-        const COLOURS: usize = 256;
         let width = range[1] - range[0];
         Self {
             colouring,
-            colours: (0..COLOURS)
-                .map(|n| colormap.at(n as f64 / (COLOURS - 1) as f64))
-                .collect(),
+            colours: std::array::from_fn(|n| colormap.at(n as f64 / (COLOURS - 1) as f64)),
             low: range[0],
             factor: if width > 0.0 {
                 COLOURS as f64 / width
@@ -190,39 +191,39 @@ impl<'a> Painter<'a> {
     }
 
     /// The colour of the particle at this place.
-    pub fn colour(&self, frame: &Frame, home: &Home, place: usize) -> Rgb {
+    pub fn colour(&self, points: &Points, home: &Home, place: usize) -> Rgb {
         if let Colouring::Picture(colours) = self.colouring {
-            let id = frame.id.get(place).map_or(place, |&id| id as usize);
+            let id = points.id.get(place).map_or(place, |&id| id as usize);
             return colours.get(id).copied().unwrap_or_default();
         }
-        self.of(self.colouring.value(frame, home, place))
+        self.of(self.colouring.value(points, home, place))
     }
 
-    /// Calls `put` with every one of these places and its colour. What is asked once for all of them is
-    /// not asked for each.
-    pub fn each(
-        &self,
-        frame: &Frame,
-        home: &Home,
-        places: std::ops::Range<usize>,
-        mut put: impl FnMut(usize, Rgb),
-    ) {
-        match self.colouring {
-            Colouring::Speed => {
-                places.for_each(|place| put(place, self.of(length(frame.velocity[place]))));
+    /// The colours of as many particles as `colours` has room for, from this place on. What is asked once
+    /// for all of them is not asked for each.
+    #[inline(always)]
+    pub fn colours(&self, points: &Points, home: &Home, first: usize, colours: &mut [Rgb]) {
+        let list = match self.colouring {
+            Colouring::Speed => &points.speed,
+            Colouring::Density => &points.density,
+            Colouring::Pressure => &points.pressure,
+            _ => {
+                for (k, colour) in colours.iter_mut().enumerate() {
+                    *colour = self.colour(points, home, first + k);
+                }
+                return;
             }
-            Colouring::Density => {
-                places.for_each(|place| put(place, self.of(frame.density[place])))
-            }
-            _ => places.for_each(|place| put(place, self.colour(frame, home, place))),
+        };
+        for (colour, &value) in colours.iter_mut().zip(&list[first..]) {
+            *colour = self.of(value.into());
         }
     }
 
     /// The colour of a number.
-    #[inline]
+    #[inline(always)]
     fn of(&self, value: f64) -> Rgb {
         // The conversion takes what is below, and NaN, to 0.
-        let n = ((value - self.low) * self.factor) as usize;
-        self.colours[n.min(self.colours.len() - 1)]
+        let n = ((value - self.low) * self.factor) as u32;
+        self.colours[n.min(COLOURS as u32 - 1) as usize]
     }
 }

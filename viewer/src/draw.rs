@@ -13,7 +13,7 @@ use crate::home::Home;
 use crate::plot;
 use crate::raster::{Mask, Pixels, Raster, Rect};
 use crate::text::{self, Style, Weight};
-use loschmidt_runner::Frame;
+use loschmidt_runner::Points;
 use std::cell::RefCell;
 
 /// How a frame is drawn.
@@ -69,8 +69,8 @@ impl Look {
 /// A run in the picture.
 #[derive(Clone, Copy, Debug)]
 pub struct Pane<'a> {
-    /// Its frame.
-    pub frame: &'a Frame,
+    /// Its particles and their time.
+    pub points: &'a Points,
     /// Its energies and entropies so far.
     pub history: &'a History,
     /// Its name; may be empty.
@@ -82,9 +82,9 @@ pub struct Pane<'a> {
 impl<'a> Pane<'a> {
     /// A run without a name, coloured as the look says.
     #[must_use]
-    pub fn new(frame: &'a Frame, history: &'a History) -> Self {
+    pub fn new(points: &'a Points, history: &'a History) -> Self {
         Self {
-            frame,
+            points,
             history,
             label: "",
             colouring: None,
@@ -184,7 +184,13 @@ pub fn draw_on(
             colouring: colouring.clone(),
             ..look.clone()
         });
-        field::paint(raster, rect, pane.frame, home, own.as_ref().unwrap_or(look));
+        field::paint(
+            raster,
+            rect,
+            pane.points,
+            home,
+            own.as_ref().unwrap_or(look),
+        );
         if layout.panel.is_some() {
             label(raster, rect, pane.label, look, layout.em);
         }
@@ -422,11 +428,11 @@ impl Parts<'_> {
     /// The arrow of time on a dial, the time, and which way it runs.
     fn clock(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let theme = &self.look.theme;
-        let frame = self.first.frame;
+        let points = self.first.points;
         let turn = self
             .look
             .turn
-            .unwrap_or(f64::from(u8::from(frame.way_back)))
+            .unwrap_or(f64::from(u8::from(points.way_back)))
             .clamp(0.0, 1.0);
         let colour = theme
             .forward
@@ -444,7 +450,7 @@ impl Parts<'_> {
             ..self.style(self.em * 10 / 7)
         };
         // A state a hair before home is at home.
-        let time = format!("{:.3}", frame.time).replace("-0.000", "0.000");
+        let time = format!("{:.3}", points.time).replace("-0.000", "0.000");
         text::write(raster, &big, x, middle, &format!("{time} s"));
         let small = Style {
             colour,

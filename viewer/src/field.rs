@@ -7,15 +7,18 @@
 //!
 //! No pixel depends on the order of the particles in the frame, nor on the number of threads.
 
-use crate::bands::{self, Disc, Piece};
+use crate::bands::{self, Piece};
 use crate::camera::Projection;
 use crate::colour::Rgb;
 use crate::colouring::Painter;
+use crate::deep::{self, Disc};
 use crate::draw::Look;
+use crate::flat::{self, Brush, Dot};
 use crate::home::Home;
 use crate::raster::{Mask, Pixels, Raster, Rect};
 use crate::stamp::{PARTS, SMALLEST, Stamp};
-use loschmidt_runner::Frame;
+use crate::wide::wide;
+use loschmidt_runner::Points;
 use rayon::prelude::*;
 use std::cell::Cell;
 
@@ -29,54 +32,61 @@ const FAINT: u8 = 70;
 const HAZE: f64 = 120.0;
 
 thread_local! {
-    /// Memory of an earlier picture.
-    static PIECES: Cell<Vec<Piece>> = const { Cell::new(Vec::new()) };
+    /// Memory of earlier pictures.
+    static FLAT: Cell<Vec<Piece<Dot>>> = const { Cell::new(Vec::new()) };
+    static DEEP: Cell<Vec<Piece<Disc>>> = const { Cell::new(Vec::new()) };
 }
 
 /// The particles alone, without text: what a terminal shows, or a test compares. `width` and
 /// `height` in pixels.
 #[must_use]
-pub fn field(frame: &Frame, home: &Home, look: &Look, width: usize, height: usize) -> Raster {
+pub fn field(points: &Points, home: &Home, look: &Look, width: usize, height: usize) -> Raster {
     let mut raster = Raster::new(width, height, Rgb(0));
     let rect = raster.rect();
-    paint(&mut raster.draw(), rect, frame, home, look);
+    paint(&mut raster.draw(), rect, points, home, look);
     raster
 }
 
 /// Draws the particles and the background into a rectangle.
-pub(crate) fn paint(raster: &mut Pixels<'_>, rect: Rect, frame: &Frame, home: &Home, look: &Look) {
+pub(crate) fn paint(
+    raster: &mut Pixels<'_>,
+    rect: Rect,
+    points: &Points,
+    home: &Home,
+    look: &Look,
+) {
     let rect = rect.clipped(raster.width(), raster.height());
     if rect.width == 0 || rect.height == 0 {
         return;
     }
     let scene = Scene {
-        frame,
+        points,
         home,
         look,
         rect,
         projection: Projection::new(home, &look.view, rect.width, rect.height),
     };
-    let mut pieces = PIECES.take();
     let background = look.theme.background;
     if home.dimension == 2 {
-        let stamp = scene.flat(&mut pieces);
-        bands::draw_bands(raster, rect, &pieces, |canvas, pieces| {
-            bands::flat_band(canvas, pieces, &stamp, background);
+        let mut pieces = FLAT.take();
+        let brush = scene.flat(&mut pieces);
+        bands::draw_bands(raster, rect, |canvas| {
+            flat::draw(canvas, &pieces, &brush, background);
         });
+        FLAT.set(pieces);
     } else {
+        let mut pieces = DEEP.take();
         raster.fill(rect, background, 255);
         scene.edges(raster, false);
         let stamps = scene.deep(&mut pieces);
-        bands::draw_bands(raster, rect, &pieces, |canvas, pieces| {
-            bands::deep_band(canvas, pieces, &stamps);
-        });
+        bands::draw_bands(raster, rect, |canvas| deep::draw(canvas, &pieces, &stamps));
         scene.edges(raster, true);
+        DEEP.set(pieces);
     }
-    PIECES.set(pieces);
 }
 
 struct Scene<'a> {
-    frame: &'a Frame,
+    points: &'a Points,
     home: &'a Home,
     look: &'a Look,
     rect: Rect,
@@ -109,55 +119,69 @@ impl Scene<'_> {
         [self.rect.width as f64, self.rect.height as f64]
     }
 
-    /// The discs of a plane scene, the walls in the first piece; and the stamp of all of them.
-    fn flat(&self, pieces: &mut Vec<Piece>) -> Stamp {
-        let radius = (self.radius() * self.projection.scale()).max(SMALLEST);
-        let stamp = Stamp::new(radius, false);
+    /// The discs of a plane scene, the walls in the first piece; and what all of them are drawn with.
+    fn flat(&self, pieces: &mut Vec<Piece<Dot>>) -> Brush {
+        /// Particles whose places on the screen are worked out together.
+        const RUN: usize = 64;
+        let scale = self.projection.scale();
+        let radius = (self.radius() * scale).max(SMALLEST);
+        let spacing = self.home.spacing * scale;
+        let area = std::f64::consts::PI * radius * radius;
+        let brush = Brush::new(radius, area / (spacing * spacing));
         let painter = self.painter();
-        // Copies, which no pointer may change: the loop keeps them in registers.
-        let (projection, size, half) = (self.projection, self.size(), stamp.half);
-        let at = move |x: &[f64; 3], colour: Rgb| {
-            let p = projection.project(*x)?;
-            let disc = disc(p.x, p.y, radius, size)?;
-            Some(Disc { colour, ..disc })
-        };
-        let Frame {
-            wall_position,
-            position,
-            ..
-        } = self.frame;
+        let axes = self
+            .projection
+            .along_axes()
+            .map(|axis| axis.map(|a| a * f64::from(PARTS)));
+        let width = self.rect.width;
         let bands = bands::count(self.rect.height);
-        let count = position.len().div_ceil(PIECE);
+        let points = self.points;
+        let count = points.len().div_ceil(PIECE);
         pieces.resize_with(1 + count, Piece::default);
         pieces.par_iter_mut().enumerate().for_each(|(n, piece)| {
             piece.clear(bands);
-            let mut put = |x, colour| {
-                if let Some(disc) = at(x, colour) {
-                    piece.push(disc, half);
-                }
-            };
             if n == 0 {
-                let wall = self.look.theme.wall;
-                wall_position.iter().for_each(|x| put(x, wall));
-            } else {
-                let places = (n - 1) * PIECE..(n * PIECE).min(position.len());
-                painter.each(self.frame, self.home, places, |place, colour| {
-                    put(&position[place], colour);
-                });
+                for [x, y, _] in &points.wall_position {
+                    let (x, y) = (parts(*x, axes[0]), parts(*y, axes[1]));
+                    brush.lay(piece, width, x, y, self.look.theme.wall);
+                }
+                return;
             }
+            let end = (n * PIECE).min(points.len());
+            let mut colours = [Rgb(0); RUN];
+            let mut places = [[0; RUN]; 2];
+            wide(
+                #[inline(always)]
+                || {
+                    for first in ((n - 1) * PIECE..end).step_by(RUN) {
+                        let run = RUN.min(end - first);
+                        for (axis, places) in places.iter_mut().enumerate() {
+                            let list = &points.position[axis][first..first + run];
+                            for (place, &x) in places.iter_mut().zip(list) {
+                                *place = parts(x, axes[axis]);
+                            }
+                        }
+                        painter.colours(points, self.home, first, &mut colours[..run]);
+                        let [x, y] = &places;
+                        for ((&x, &y), &colour) in x.iter().zip(y).zip(&colours[..run]) {
+                            brush.lay(piece, width, x, y, colour);
+                        }
+                    }
+                },
+            );
         });
-        stamp
+        brush
     }
 
     /// The discs of a scene in space from the farthest to the nearest, and their stamps.
-    fn deep(&self, pieces: &mut Vec<Piece>) -> Vec<Stamp> {
+    fn deep(&self, pieces: &mut Vec<Piece<Disc>>) -> Vec<Stamp> {
         let painter = self.painter();
         let radius = self.radius();
         let background = self.look.theme.background;
         let mut levels: Vec<u32> = vec![level(SMALLEST)];
         let mut discs: Vec<Disc> = Vec::new();
-        for x in &self.frame.wall_position {
-            let Some(p) = self.projection.project(*x) else {
+        for x in &self.points.wall_position {
+            let Some(p) = self.projection.project(x.map(f64::from)) else {
                 continue;
             };
             if let Some(disc) = disc(p.x, p.y, SMALLEST, self.size()) {
@@ -168,21 +192,19 @@ impl Scene<'_> {
                 });
             }
         }
-        let mut balls: Vec<(f64, u64, u32, Disc)> = self
-            .frame
-            .position
-            .par_iter()
+        let points = self.points;
+        let mut balls: Vec<(f64, u64, u32, Disc)> = (0..points.len())
+            .into_par_iter()
             .with_min_len(PIECE / 4)
-            .enumerate()
-            .filter_map(|(n, x)| {
-                let p = self.projection.project(*x)?;
+            .filter_map(|n| {
+                let p = self.projection.project(points.at(n))?;
                 let size = (radius * p.scale).max(SMALLEST);
                 let disc = disc(p.x, p.y, size, self.size())?;
                 let haze = HAZE * self.projection.part_of_depth(p.depth);
                 let colour = painter
-                    .colour(self.frame, self.home, n)
+                    .colour(points, self.home, n)
                     .mix(background, haze as u8);
-                let id = self.frame.id.get(n).map_or(n as u64, |&id| id);
+                let id = points.id.get(n).map_or(n as u64, |&id| id);
                 Some((p.depth, id, level(size), Disc { colour, ..disc }))
             })
             .collect();
@@ -210,7 +232,7 @@ impl Scene<'_> {
             .for_each(|(piece, discs)| {
                 piece.clear(bands);
                 for disc in discs {
-                    piece.push(*disc, stamps[usize::from(disc.stamp)].half);
+                    disc.lay(piece, &stamps[usize::from(disc.stamp)]);
                 }
             });
         stamps
@@ -262,6 +284,17 @@ fn disc(x: f64, y: f64, radius: f64, [width, height]: [f64; 2]) -> Option<Disc> 
         stamp: 0,
         weight: 255,
     })
+}
+
+/// A coordinate (m) in [`PARTS`] of a pixel, rounded to the nearest below by the factor and summand of its
+/// axis; far outside of any picture where it lies beyond.
+#[inline(always)]
+fn parts(x: f32, [factor, summand]: [f64; 2]) -> i32 {
+    const FAR: f64 = 16_777_216.0;
+    // Added to 1.5 times 2^52 a number is rounded to a whole one, which stands in its last bits.
+    const WHOLE: f64 = 6_755_399_441_055_744.0;
+    let part = (f64::from(x) * factor + (summand - 0.5)).clamp(-FAR, FAR);
+    (part + WHOLE).to_bits() as i32
 }
 
 /// The largest integer that is not above; without a call of a library for each particle.

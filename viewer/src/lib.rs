@@ -1,11 +1,11 @@
-//! The viewer of Loschmidt: turns a frame into pixels, once, for files, window and terminal.
+//! The viewer of Loschmidt: turns points into pixels, once, for files, window and terminal.
 //!
 //! ```text
-//! Frame + Home + Look --draw--> Raster -> PNG, GIF, MP4 | window | half-blocks of a terminal
+//! Points + Home + Look --draw--> Raster -> PNG, GIF, MP4 | window | half-blocks of a terminal
 //! ```
 //!
 //! 1. [`raster`]: the pixels. [`colour`]: colour maps and themes. [`text`]: the embedded font.
-//! 2. [`home`]: what a picture needs to know of a scene besides the frame. [`camera`]: where a
+//! 2. [`home`]: what a picture needs to know of a scene besides its points. [`camera`]: where a
 //!    point of the scene is on the screen.
 //! 3. [`colouring`]: what the colour of a particle says. [`picture`]: a picture laid over the
 //!    initial state.
@@ -26,9 +26,11 @@ mod bands;
 pub mod camera;
 pub mod colour;
 pub mod colouring;
+mod deep;
 pub mod draw;
 pub mod face;
 pub mod field;
+mod flat;
 pub mod history;
 pub mod home;
 pub mod keys;
@@ -40,6 +42,7 @@ pub mod raster;
 mod stamp;
 pub mod text;
 pub mod track;
+mod wide;
 pub mod window;
 
 pub use camera::{Projection, View};

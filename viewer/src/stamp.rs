@@ -22,10 +22,8 @@ pub(crate) struct Stamp {
     /// Pixels on either side of the one with the centre.
     pub half: i32,
     /// Places within a pixel that are told apart, per axis.
-    places: i32,
+    pub places: i32,
     coverage: Vec<u8>,
-    /// The same numbers, of discs that are not shaded.
-    weights: Vec<f32>,
     shade: Vec<u8>,
 }
 
@@ -44,7 +42,6 @@ impl Stamp {
             half,
             places,
             coverage: Vec::new(),
-            weights: Vec::new(),
             shade: Vec::new(),
         };
         for py in 0..places {
@@ -52,9 +49,6 @@ impl Stamp {
                 let place = |p: i32| (f64::from(p) + 0.5) / f64::from(places);
                 stamp.add(radius, [place(px), place(py)], shaded);
             }
-        }
-        if !shaded {
-            stamp.weights = stamp.coverage.iter().map(|&c| f32::from(c)).collect();
         }
         stamp
     }
@@ -86,15 +80,14 @@ impl Stamp {
         &table[start..start + pixels]
     }
 
+    /// Coverage, 0 to 255, by places (rows of them), rows and columns.
+    pub fn table(&self) -> &[u8] {
+        &self.coverage
+    }
+
     /// Coverage, 0 to 255, of the pixels, row by row from the top left of the disc.
     pub fn coverage(&self, x: i32, y: i32) -> &[u8] {
         self.part(&self.coverage, x, y)
-    }
-
-    /// The coverage as a number to be multiplied with.
-    #[inline]
-    pub fn weights(&self, x: i32, y: i32) -> &[f32] {
-        self.part(&self.weights, x, y)
     }
 
     /// Brightness, 0 to 255, of the same pixels.

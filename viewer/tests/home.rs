@@ -1,12 +1,12 @@
-//! Frames for the other tests: small scenes, run for a few steps.
+//! Points for the other tests: small scenes, run for a few steps.
 
 use loschmidt_runner::run::Row;
 use loschmidt_runner::scene::{load, resolve};
-use loschmidt_runner::{Frame, Options, Player};
+use loschmidt_runner::{Options, Player, Points};
 use loschmidt_viewer::{History, Home};
 
 /// A scene of the catalogue after some steps, its home, and its history.
-pub fn after(scene: &str, set: &[&str], steps: u64) -> (Frame, Home, History) {
+pub fn after(scene: &str, set: &[&str], steps: u64) -> (Points, Home, History) {
     let set: Vec<String> = set.iter().map(|&text| text.to_owned()).collect();
     let scene = load(&resolve(scene).expect("a scene"), &set).expect("a scene");
     let initial = scene.initial_state().expect("particles");
@@ -26,5 +26,7 @@ pub fn after(scene: &str, set: &[&str], steps: u64) -> (Frame, Home, History) {
         player.advance(steps / 10).expect("steps");
         note(&mut player, 2);
     }
-    (player.frame().expect("a frame"), home, history)
+    let mut points = Points::default();
+    player.points(&mut points).expect("points");
+    (points, home, history)
 }

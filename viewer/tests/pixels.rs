@@ -1,7 +1,7 @@
-//! The pixels are a function of the frame and the look alone.
+//! The pixels are a function of the points and the look alone.
 
 use crate::home::after;
-use loschmidt_runner::Frame;
+use loschmidt_runner::Points;
 use loschmidt_viewer::{
     Colormap, Colouring, History, Home, Look, Pane, Picture, Raster, Rect, Rgb, Theme, draw,
     draw_on, field, png,
@@ -50,22 +50,22 @@ fn assert_same(name: &str, picture: impl Fn() -> Raster + Sync) {
     assert_golden(name, &one);
 }
 
-fn dam() -> (Frame, Home, History) {
+fn dam() -> (Points, Home, History) {
     after("dam-break", &["particle_spacing=0.05"], 1500)
 }
 
 #[test]
 fn the_pixels_of_a_plane_scene_are_the_committed_ones_for_any_number_of_threads() {
-    let (frame, home, history) = dam();
+    let (points, home, history) = dam();
     let look = Look::default();
     assert_same("dam-break", || {
-        draw(&[Pane::new(&frame, &history)], &home, &look, 320, 240)
+        draw(&[Pane::new(&points, &history)], &home, &look, 320, 240)
     });
 }
 
 #[test]
 fn the_pixels_of_two_panes_are_the_committed_ones_for_any_number_of_threads() {
-    let (frame, home, history) = dam();
+    let (points, home, history) = dam();
     let look = Look {
         colouring: Colouring::Displacement,
         caption: "a caption".to_owned(),
@@ -75,7 +75,7 @@ fn the_pixels_of_two_panes_are_the_committed_ones_for_any_number_of_threads() {
     };
     let one = Pane {
         label: "one",
-        ..Pane::new(&frame, &history)
+        ..Pane::new(&points, &history)
     };
     let other = Pane {
         label: "another",
@@ -87,69 +87,73 @@ fn the_pixels_of_two_panes_are_the_committed_ones_for_any_number_of_threads() {
 
 #[test]
 fn the_pixels_of_a_scene_in_space_are_the_committed_ones_for_any_number_of_threads() {
-    let (frame, home, history) = after("dam-break-3d", &["particle_spacing=0.1"], 200);
+    let (points, home, history) = after("dam-break-3d", &["particle_spacing=0.1"], 200);
     let look = Look {
         colouring: Colouring::InitialHeight,
         colormap: Some(Colormap::Cividis),
         ..Look::default()
     };
     assert_same("dam-break-3d", || {
-        draw(&[Pane::new(&frame, &history)], &home, &look, 320, 240)
+        draw(&[Pane::new(&points, &history)], &home, &look, 320, 240)
     });
 }
 
 #[test]
 fn a_terminal_gets_the_particles_of_the_picture() {
-    let (frame, home, history) = dam();
+    let (points, home, history) = dam();
     let look = Look {
         panel: false,
         ..Look::default()
     };
-    let whole = draw(&[Pane::new(&frame, &history)], &home, &look, 90, 60);
-    assert!(whole == field(&frame, &home, &look, 90, 60));
+    let whole = draw(&[Pane::new(&points, &history)], &home, &look, 90, 60);
+    assert!(whole == field(&points, &home, &look, 90, 60));
 }
 
 #[test]
 fn at_home_a_tint_is_the_picture() {
     // 20 x 40 particles, 1 x 2 m, and a picture of the same proportions.
-    let (frame, home, _) = after("dam-break", &["particle_spacing=0.05"], 0);
+    let (_, home, _) = after("dam-break", &["particle_spacing=0.05"], 0);
     let mut picture = Raster::new(20, 40, Rgb(0));
     for (n, pixel) in picture.pixels_mut().iter_mut().enumerate() {
         *pixel = (n as u32).wrapping_mul(2_654_435_761) & 0xff_ffff;
     }
     let tint = Picture::new(picture.clone()).tint(&home);
-    for (x, colour) in frame.position.iter().zip(&tint) {
+    for (x, colour) in home.position.iter().zip(&tint) {
         let (column, row) = ((x[0] / 0.05) as usize, ((2.0 - x[1]) / 0.05) as usize);
         assert_eq!(*colour, picture.at(column, row), "at {x:?}");
     }
 }
 
-/// The particles of a frame in another order: from the middle backwards.
-fn shuffled(frame: &Frame) -> Frame {
-    let n = frame.id.len();
+/// The particles in another order: from the middle backwards.
+fn shuffled(points: &Points) -> Points {
+    let n = points.len();
     let order: Vec<usize> = (0..n).map(|k| (n + n / 2 - k) % n).collect();
-    Frame {
-        id: order.iter().map(|&i| frame.id[i]).collect(),
-        position: order.iter().map(|&i| frame.position[i]).collect(),
-        velocity: order.iter().map(|&i| frame.velocity[i]).collect(),
-        density: order.iter().map(|&i| frame.density[i]).collect(),
-        pressure: order.iter().map(|&i| frame.pressure[i]).collect(),
-        ..frame.clone()
+    let of = |list: &Vec<f32>| match list.is_empty() {
+        true => Vec::new(),
+        false => order.iter().map(|&i| list[i]).collect(),
+    };
+    Points {
+        id: order.iter().map(|&i| points.id[i]).collect(),
+        position: points.position.each_ref().map(of),
+        speed: of(&points.speed),
+        density: of(&points.density),
+        pressure: of(&points.pressure),
+        ..points.clone()
     }
 }
 
 #[test]
 fn a_picture_depends_on_no_order_of_the_particles() {
     let space = || after("dam-break-3d", &["particle_spacing=0.1"], 200);
-    for (frame, home, _) in [dam(), space()] {
-        let other = shuffled(&frame);
-        assert_ne!(frame.id, other.id);
+    for (points, home, _) in [dam(), space()] {
+        let other = shuffled(&points);
+        assert_ne!(points.id, other.id);
         for colouring in Colouring::MEASURED {
             let look = Look {
                 colouring,
                 ..Look::default()
             };
-            let [one, two] = [&frame, &other].map(|frame| field(frame, &home, &look, 200, 150));
+            let [one, two] = [&points, &other].map(|points| field(points, &home, &look, 200, 150));
             assert!(one == two, "{}", look.colouring.name());
         }
     }
@@ -157,7 +161,7 @@ fn a_picture_depends_on_no_order_of_the_particles() {
 
 #[test]
 fn a_picture_drawn_over_another_one_is_the_same() {
-    let (frame, home, history) = dam();
+    let (points, home, history) = dam();
     let (start, _, _) = after("dam-break", &["particle_spacing=0.05"], 0);
     let empty = History::new(home.span);
     let look = Look::default();
@@ -168,26 +172,26 @@ fn a_picture_drawn_over_another_one_is_the_same() {
     };
     // Every one of them changes what may be left over from the one before: particles, curves, words,
     // the way of time, the legend, the colours.
-    let back = Frame {
+    let back = Points {
         way_back: true,
-        ..frame.clone()
+        ..points.clone()
     };
     let pressure = Look {
         colouring: Colouring::Pressure,
         ..Look::default()
     };
     let pictures = [
-        (&frame, &history, &look),
+        (&points, &history, &look),
         (&start, &history, &look),
         (&start, &empty, &look),
-        (&frame, &history, &light),
+        (&points, &history, &light),
         (&back, &history, &light),
-        (&frame, &history, &pressure),
-        (&frame, &history, &look),
+        (&points, &history, &pressure),
+        (&points, &history, &look),
     ];
     let mut raster = Raster::new(320, 250, Rgb(0xff_00ff));
-    for (n, (frame, history, look)) in pictures.into_iter().enumerate() {
-        let panes = [Pane::new(frame, history)];
+    for (n, (points, history, look)) in pictures.into_iter().enumerate() {
+        let panes = [Pane::new(points, history)];
         draw_on(&mut raster.draw(), &panes, &home, look, 240);
         // A thread that has drawn nothing yet has nothing left over.
         let fresh = std::thread::scope(|scope| {
@@ -202,19 +206,19 @@ fn a_picture_drawn_over_another_one_is_the_same() {
 
 /// A picture of one place with so many particles of each of these colours.
 fn crowd(colours: [Rgb; 2], each: usize) -> Raster {
-    let (mut frame, home, _) = after("dam-break", &["particle_spacing=0.1"], 0);
+    let (mut points, home, _) = after("dam-break", &["particle_spacing=0.1"], 0);
     let n = 2 * each;
-    frame.id = (0..n as u64).collect();
-    frame.position = vec![[0.5, 0.5, 0.0]; n];
-    frame.velocity = vec![[0.0; 3]; n];
-    frame.density = vec![1000.0; n];
-    frame.pressure = vec![0.0; n];
+    points.id = (0..n as u64).collect();
+    points.position = [vec![0.5; n], vec![0.5; n], Vec::new()];
+    points.speed = vec![0.0; n];
+    points.density = vec![1000.0; n];
+    points.pressure = vec![0.0; n];
     let tint = (0..n).map(|id| colours[id / each]);
     let look = Look {
         colouring: Colouring::Picture(tint.collect()),
         ..Look::default()
     };
-    field(&frame, &home, &look, 100, 100)
+    field(&points, &home, &look, 100, 100)
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use loschmidt_runner::Deck;
 use loschmidt_runner::Options;
 use loschmidt_runner::deck::{Command, Opening, Report};
-use loschmidt_viewer::face::Request;
-use loschmidt_viewer::window::{Button, Drag, Effect, Message, Mouse, Places};
+use loschmidt_viewer::face::{Choice, Request};
+use loschmidt_viewer::window::{Button, Drag, Effect, Message, Mouse, Overlay, Places};
 use loschmidt_viewer::window::{State, compose, update};
 use loschmidt_viewer::{Key, Look, Pane, Rgb, Theme, draw, png};
 use std::io::Cursor;
@@ -32,7 +32,7 @@ fn at_forty() -> State {
         if shot {
             deck.ready();
             let stage = state.stage.as_ref().expect("a scene");
-            if stage.frame.step == 40 && stage.status.seek.is_none() {
+            if stage.points.step == 40 && stage.status.seek.is_none() {
                 break;
             }
         }
@@ -50,10 +50,10 @@ fn the_window_is_its_png_and_the_rasterisers_frame_above_the_bar_of_time() {
     let stage = state.stage.as_ref().expect("a scene");
     let places = Places::of(&state).expect("places");
     let look = Look {
-        caption: format!("{} particles", stage.frame.id.len()),
+        caption: format!("{} particles", stage.points.len()),
         ..Look::default()
     };
-    let panes = [Pane::new(&stage.frame, &stage.ways.history)];
+    let panes = [Pane::new(&stage.points, &stage.ways.history)];
     let (width, height) = (places.picture.width, places.picture.height);
     let frame = draw(&panes, &stage.home, &look, width, height);
     assert!(pixels.part(places.picture) == frame);
@@ -130,4 +130,62 @@ fn help_theme_and_every_size_can_be_drawn() {
             assert_eq!(compose(&state, size).pixels().len(), size.0 * size.1);
         }
     }
+}
+
+#[test]
+fn another_scene_is_chosen_from_a_list_and_the_present_one_begins_anew() {
+    let mut state = at_forty();
+    let mut press = |state: &mut State, key| update(state, Message::Key(key));
+    assert_eq!(press(&mut state, Key::Char('o')), [Effect::List]);
+    let choice = |name: &str| Choice {
+        name: name.to_owned(),
+        title: "a scene".to_owned(),
+    };
+    let plain = compose(&state, SIZE);
+    let choices = ["a", "dam-break", "c"].map(choice);
+    update(&mut state, Message::Choices(choices.to_vec()));
+    assert!(compose(&state, SIZE) != plain);
+    press(&mut state, Key::Down);
+    let effects = press(&mut state, Key::Enter);
+    assert!(matches!(&effects[..], [Effect::Open(request)] if request.name == "c"));
+    press(&mut state, Key::Escape);
+    assert!(compose(&state, SIZE) == plain);
+    let effects = press(&mut state, Key::Char('n'));
+    assert_eq!(effects, [Effect::Open(state.request.clone())]);
+    // A run goes on where it was left, its scene at the start.
+    let run = tempfile::tempdir().expect("a directory");
+    state.request.name = run.path().display().to_string();
+    let effects = press(&mut state, Key::Char('n'));
+    let scene = run.path().join("scene.toml").display().to_string();
+    assert!(matches!(&effects[..], [Effect::Open(request)] if request.name == scene));
+}
+
+#[test]
+fn the_panel_starts_the_scene_anew_with_its_values() {
+    let mut state = at_forty();
+    let mut press = |state: &mut State, key| update(state, Message::Key(key));
+    press(&mut state, Key::Char('e'));
+    for c in "-1".chars() {
+        press(&mut state, Key::Char(c));
+    }
+    let effects = press(&mut state, Key::Enter);
+    let [Effect::Open(request)] = &effects[..] else {
+        panic!("{effects:?}");
+    };
+    assert_eq!(request.set, ["particle_spacing=-1"]);
+    let why = request.opening(Options::default()).err().expect("refused");
+    let shown = compose(&state, SIZE);
+    update(&mut state, Message::NotOpened(why.to_string()));
+    let Overlay::Parameters(panel) = &state.overlay else {
+        panic!("{:?}", state.overlay);
+    };
+    assert!(
+        panel
+            .problem
+            .as_ref()
+            .is_some_and(|p| p.contains("particle_spacing"))
+    );
+    assert!(compose(&state, SIZE) != shown);
+    press(&mut state, Key::Escape);
+    assert_eq!(state.overlay, Overlay::None);
 }

@@ -39,8 +39,16 @@ impl StateEquation {
 
     /// Pressure divided by c² ρ0; dimensionless.
     #[must_use]
+    #[inline]
     pub fn pressure(self, x: f64) -> f64 {
-        self.pressure_over_density_squared(x) * (x * x)
+        match self {
+            Self::Tait => {
+                let x2 = x * x;
+                let x4 = x2 * x2;
+                ((x4 * x2) * x - 1.0) / 7.0
+            }
+            Self::Linear => x - 1.0,
+        }
     }
 
     /// Internal energy per mass divided by c², zero at x = 1; dimensionless.

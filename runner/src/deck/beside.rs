@@ -82,8 +82,8 @@ impl Companion {
     }
 
     pub fn picture(&mut self) -> Result<Report, Fault> {
-        let mut frame = Box::default();
-        self.player.picture(&mut frame)?;
-        Ok(Report::Beside(Beside::Picture(frame)))
+        let mut points = Box::default();
+        self.player.points(&mut points)?;
+        Ok(Report::Beside(Beside::Picture(points)))
     }
 }

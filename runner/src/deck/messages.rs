@@ -2,6 +2,7 @@
 
 use crate::frame::Frame;
 use crate::player::{Arrow, PlayerError, Return};
+use crate::points::Points;
 use crate::run::Row;
 use crate::saved::ArithmeticKind;
 use crate::scene::Scene;
@@ -40,7 +41,7 @@ pub enum Command {
         rows: Vec<Row>,
     },
     /// A picture that is no longer shown: the next one may be made in its memory.
-    Reuse(Box<Frame>),
+    Reuse(Box<Points>),
 }
 
 /// What happened.
@@ -80,7 +81,7 @@ pub enum Report {
 #[derive(Clone, Debug)]
 pub enum Beside {
     /// Its particles.
-    Picture(Box<Frame>),
+    Picture(Box<Points>),
     /// Its energies and entropy, measured with those of the first.
     Row {
         /// The row.
@@ -164,7 +165,7 @@ pub struct Seek {
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// The particles.
-    pub frame: Frame,
+    pub points: Points,
     /// Where everything is.
     pub status: Status,
 }

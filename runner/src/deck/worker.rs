@@ -13,8 +13,8 @@ use super::messages::{
 use super::opening::{Opening, Recorded};
 use super::waypoints::Waypoints;
 use crate::executor::Rayon;
-use crate::frame::Frame;
 use crate::player::{Arrow, Player};
+use crate::points::Points;
 use crate::run::{Plan, Row, RunError};
 use crate::saved::{ArithmeticKind, SavedState};
 use loschmidt_core::Fault;
@@ -109,7 +109,7 @@ struct Worker {
     /// The state has changed since.
     changed: bool,
     /// A picture that the face has done with.
-    spare: Option<Box<Frame>>,
+    spare: Option<Box<Points>>,
 }
 
 impl Worker {
@@ -388,8 +388,8 @@ impl Worker {
             // The face is still at the last one.
             return wait.min(Duration::from_millis(2));
         }
-        let mut frame = self.spare.take().unwrap_or_default();
-        match self.player.picture(&mut frame) {
+        let mut points = self.spare.take().unwrap_or_default();
+        match self.player.points(&mut points) {
             Ok(()) => {
                 // In step with the clock, so that pictures that come a little late are not fewer.
                 self.due = Some((due + pause).max(now + pause / 2));
@@ -398,8 +398,8 @@ impl Worker {
                     (self.tell)(report);
                 }
                 let status = self.status();
-                let frame = *frame;
-                (self.tell)(Report::Shot(Box::new(Shot { frame, status })));
+                let points = *points;
+                (self.tell)(Report::Shot(Box::new(Shot { points, status })));
             }
             Err(fault) => self.fail(fault),
         }

@@ -2,7 +2,7 @@
 
 use loschmidt_runner::deck::{Command, Report};
 use loschmidt_viewer::Key;
-use loschmidt_viewer::face::Request;
+use loschmidt_viewer::face::{Choice, Request};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -47,15 +47,6 @@ pub enum Mouse {
     WheelUp,
     /// The wheel.
     WheelDown,
-}
-
-/// What can be opened.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Choice {
-    /// Name of a scene, path of a scene file or of a run.
-    pub name: String,
-    /// What it is.
-    pub title: String,
 }
 
 /// What the dashboard asks for.

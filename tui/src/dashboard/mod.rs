@@ -10,7 +10,6 @@
 //! [`Deck`]; another one waits for keys. This one only draws, at most 30 times a second, and
 //! at once when a key was pressed.
 
-mod choices;
 mod keys;
 mod message;
 mod state;
@@ -185,7 +184,7 @@ impl Face {
                     self.take(Message::NotOpened(why));
                 }
             },
-            Effect::List => self.take(Message::Choices(choices::all())),
+            Effect::List => self.take(Message::Choices(loschmidt_viewer::face::choices())),
             Effect::Picture => {
                 let result = self.picture();
                 self.take(Message::Pictured(result));
@@ -224,7 +223,7 @@ impl Face {
             return Err("there is nothing to draw".to_owned());
         };
         let history = stage.track.history(stage.home.span);
-        let panes = [Pane::new(&stage.frame, &history)];
+        let panes = [Pane::new(&stage.points, &history)];
         let look = Look {
             panel: true,
             ..self.state.look.clone()

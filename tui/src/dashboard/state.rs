@@ -1,10 +1,9 @@
 //! The state of the dashboard: everything that a view shows.
 
-use super::message::Choice;
 use loschmidt_runner::deck::{Arrival, Moment, Opened, Perturbation, Report, Status};
 use loschmidt_runner::run::Row;
-use loschmidt_runner::{Arrow, Frame};
-use loschmidt_viewer::face::{Kept, Notice, Request, is_unsaved};
+use loschmidt_runner::{Arrow, Points};
+use loschmidt_viewer::face::{Kept, List, Notice, Panel, Request, is_unsaved};
 use loschmidt_viewer::{Home, Look, Track};
 use std::time::Duration;
 
@@ -54,42 +53,11 @@ pub enum Overlay {
     /// The keys, from this line on where there is no room for all.
     Help(usize),
     /// What can be opened, and which is chosen.
-    Scenes { choices: Vec<Choice>, chosen: usize },
+    Scenes(List),
     /// The panel of parameters.
     Parameters(Panel),
     /// Nothing can be shown, and why.
     Error(String),
-}
-
-/// The panel of parameters.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Panel {
-    /// Values as they are typed, in the order of [`Panel::FIELDS`].
-    pub values: [String; 4],
-    /// The values before.
-    pub before: [String; 4],
-    /// The field that is edited.
-    pub field: usize,
-    /// Whether the field is untouched, so that typing replaces it.
-    pub fresh: bool,
-    /// Why the values were refused.
-    pub problem: Option<String>,
-}
-
-impl Panel {
-    /// Name, unit and key of a scene.
-    pub const FIELDS: [(&'static str, &'static str, &'static str); 4] = [
-        ("particle spacing", "m", "particle_spacing"),
-        ("sound speed", "m/s", "fluid.sound_speed"),
-        ("integrator", "", "integrator"),
-        ("threads", "", ""),
-    ];
-    /// What the integrator can be.
-    pub const INTEGRATORS: [&'static str; 3] = ["stormer-verlet", "pefrl", "suzuki"];
-    /// The field of the integrator, which is chosen and not typed.
-    pub const INTEGRATOR: usize = 2;
-    /// The field of the threads, which are no key of a scene.
-    pub const THREADS: usize = 3;
 }
 
 /// A scene that is shown.
@@ -98,7 +66,7 @@ pub struct Stage {
     /// What the deck said when it was opened.
     pub opened: Box<Opened>,
     pub home: Home,
-    pub frame: Frame,
+    pub points: Points,
     pub status: Status,
     /// Energies and entropies of both ways.
     pub track: Track,
@@ -119,7 +87,7 @@ impl Stage {
         }
         Self {
             home: Home::new(&opened.scene, &opened.home),
-            frame: opened.home.clone(),
+            points: Points::from(&opened.home),
             status: opened.status.clone(),
             track,
             moment: None,

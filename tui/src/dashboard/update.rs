@@ -1,13 +1,13 @@
 //! How the state changes, and what is asked for: without a clock, a file or a terminal.
 
 use super::message::{Effect, Message, Mouse};
-use super::state::{Drag, Overlay, Panel, Stage, State};
+use super::state::{Drag, Overlay, Stage, State};
 use super::view::Areas;
 use loschmidt_core::Reversibility;
 use loschmidt_runner::deck::{Command, Report, faster, slower};
-use loschmidt_runner::{ArithmeticKind, Frame};
+use loschmidt_runner::{ArithmeticKind, Points};
 use loschmidt_viewer::face::{
-    Kept, Notice, Request, Tone, meddled, next_colormap, next_colouring, turned,
+    Answer, Kept, List, Notice, Panel, Tone, meddled, next_colormap, next_colouring, turned,
 };
 use loschmidt_viewer::{Action, Key, Projection, Theme, View, keys};
 
@@ -32,11 +32,7 @@ pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
             Vec::new()
         }
         Message::Choices(choices) => {
-            let chosen = choices
-                .iter()
-                .position(|choice| choice.name == state.request.name)
-                .unwrap_or(0);
-            state.overlay = Overlay::Scenes { choices, chosen };
+            state.overlay = Overlay::Scenes(List::new(choices, &state.request));
             Vec::new()
         }
         Message::Pictured(Ok(path)) => {
@@ -73,9 +69,9 @@ pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
 }
 
 /// The next picture is made in the memory of the one before.
-fn reuse(frame: Option<Frame>) -> Vec<Effect> {
-    let effect = |frame| Effect::Deck(Command::Reuse(Box::new(frame)));
-    frame.map(effect).into_iter().collect()
+fn reuse(points: Option<Points>) -> Vec<Effect> {
+    let effect = |points| Effect::Deck(Command::Reuse(Box::new(points)));
+    points.map(effect).into_iter().collect()
 }
 
 fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
@@ -87,7 +83,7 @@ fn first_line(text: &str) -> String {
 }
 
 /// Takes a report into the state; the picture that a new one has replaced.
-fn on_report(state: &mut State, report: Report) -> Option<Frame> {
+fn on_report(state: &mut State, report: Report) -> Option<Points> {
     match report {
         Report::Opened(opened) => {
             state.stage = Some(Stage::new(opened));
@@ -107,7 +103,7 @@ fn on_report(state: &mut State, report: Report) -> Option<Frame> {
         Report::Opened(_) | Report::Failed(_) | Report::Beside(_) => {}
         Report::Shot(shot) => {
             stage.status = shot.status;
-            return Some(std::mem::replace(&mut stage.frame, shot.frame));
+            return Some(std::mem::replace(&mut stage.points, shot.points));
         }
         Report::Status(status) => {
             stage.wanted = None;
@@ -172,45 +168,13 @@ fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
                 _ => Vec::new(),
             };
         }
-        Overlay::Scenes { choices, chosen } => {
-            match key {
-                Key::Up | Key::Char('k') => *chosen = chosen.saturating_sub(1),
-                Key::Down | Key::Char('j') => {
-                    *chosen = (*chosen + 1).min(choices.len().saturating_sub(1));
-                }
-                Key::Home => *chosen = 0,
-                Key::End => *chosen = choices.len().saturating_sub(1),
-                Key::Enter | Key::Space => {
-                    if let Some(choice) = choices.get(*chosen) {
-                        return vec![Effect::Open(Request {
-                            name: choice.name.clone(),
-                            set: Vec::new(),
-                            threads: state.request.threads,
-                            beside: false,
-                        })];
-                    }
-                }
-                Key::Char('q') => return vec![Effect::Quit],
-                Key::Escape | Key::Char('o') => close(state),
-                _ => {}
-            }
-            return Vec::new();
+        Overlay::Scenes(list) => {
+            let answer = list.key(key, &state.request);
+            return answered(state, answer);
         }
         Overlay::Parameters(panel) => {
-            return match panel_key(panel, key) {
-                PanelKey::Stay => Vec::new(),
-                PanelKey::Close => {
-                    close(state);
-                    Vec::new()
-                }
-                PanelKey::Restart => match restarted(&state.request, panel) {
-                    Ok(request) => vec![Effect::Open(request)],
-                    Err(why) => {
-                        panel.problem = Some(why);
-                        Vec::new()
-                    }
-                },
-            };
+            let answer = panel.key(key, &state.request);
+            return answered(state, answer);
         }
         Overlay::Error(_) => {
             return match keys::action(key) {
@@ -226,6 +190,17 @@ fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
         return Vec::new();
     }
     action.map_or_else(Vec::new, |action| on_action(state, action))
+}
+
+/// Does what a key in a list or a panel leads to.
+fn answered(state: &mut State, answer: Answer) -> Vec<Effect> {
+    match answer {
+        Answer::Stay => {}
+        Answer::Close => close(state),
+        Answer::Open(request) => return vec![Effect::Open(request)],
+        Answer::Quit => return vec![Effect::Quit],
+    }
+    Vec::new()
 }
 
 /// Closes what is open; without a scene behind it, the error that explains why stays.
@@ -311,7 +286,7 @@ fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
         }
         // The one in the middle of the lattice order.
         Action::Flip => {
-            let particles = stage.frame.id.len() as u64;
+            let particles = stage.points.len() as u64;
             vec![Effect::Deck(Command::Flip(particles / 2))]
         }
         Action::Switch => {
@@ -321,8 +296,11 @@ fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
             };
             vec![Effect::Deck(Command::Switch(other))]
         }
+        Action::Anew => vec![Effect::Open(state.request.anew())],
         Action::Parameters => {
-            state.overlay = Overlay::Parameters(panel(stage));
+            let opened = &stage.opened;
+            let panel = Panel::new(&opened.scene, &opened.options);
+            state.overlay = Overlay::Parameters(panel);
             Vec::new()
         }
         Action::Keep => vec![Effect::Keep],
@@ -437,105 +415,4 @@ fn zoom_at(state: &mut State, factor: f64, column: u16, row: u16) {
     let away = [x, y].map(|d| d * (1.0 - factor) / factor);
     // Dragging is in pixels of the projection before the zoom.
     state.look.view = state.look.view.dragged(away, &projection).zoomed(factor);
-}
-
-fn panel(stage: &Stage) -> Panel {
-    let scene = &stage.opened.scene;
-    let values = [
-        scene.particle_spacing.to_string(),
-        scene.fluid.sound_speed.to_string(),
-        scene.integrator.word().to_owned(),
-        stage.opened.options.threads.to_string(),
-    ];
-    Panel {
-        before: values.clone(),
-        values,
-        field: 0,
-        fresh: true,
-        problem: None,
-    }
-}
-
-enum PanelKey {
-    Stay,
-    Close,
-    Restart,
-}
-
-fn panel_key(panel: &mut Panel, key: Key) -> PanelKey {
-    let last = Panel::FIELDS.len() - 1;
-    let choose = |panel: &mut Panel, by: usize| {
-        let all = Panel::INTEGRATORS;
-        let now = &panel.values[Panel::INTEGRATOR];
-        let place = all.iter().position(|name| name == now).unwrap_or(0);
-        panel.values[Panel::INTEGRATOR] = all[(place + by) % all.len()].to_owned();
-    };
-    match key {
-        Key::Escape => return PanelKey::Close,
-        Key::Enter => return PanelKey::Restart,
-        Key::Up | Key::BackTab => {
-            panel.field = panel.field.checked_sub(1).unwrap_or(last);
-            panel.fresh = true;
-        }
-        Key::Down | Key::Tab => {
-            panel.field = (panel.field + 1) % (last + 1);
-            panel.fresh = true;
-        }
-        Key::Right | Key::Space if panel.field == Panel::INTEGRATOR => choose(panel, 1),
-        Key::Left if panel.field == Panel::INTEGRATOR => {
-            choose(panel, Panel::INTEGRATORS.len() - 1);
-        }
-        Key::Backspace if panel.field != Panel::INTEGRATOR => {
-            panel.fresh = false;
-            panel.values[panel.field].pop();
-        }
-        // Also what no number has in it: an error says more than a key that does nothing.
-        Key::Char(c) if panel.field != Panel::INTEGRATOR && !c.is_control() => {
-            let value = &mut panel.values[panel.field];
-            if panel.fresh {
-                value.clear();
-            }
-            panel.fresh = false;
-            if value.len() < 16 {
-                value.push(c);
-            }
-        }
-        _ => {}
-    }
-    panel.problem = None;
-    PanelKey::Stay
-}
-
-/// What is opened when the panel's values are taken.
-fn restarted(request: &Request, panel: &Panel) -> Result<Request, String> {
-    let mut set = request.set.clone();
-    let mut changed = false;
-    for (n, (_, _, key)) in Panel::FIELDS.iter().enumerate() {
-        if n != Panel::THREADS && panel.values[n] != panel.before[n] {
-            set.retain(|old| !old.starts_with(&format!("{key}=")));
-            set.push(format!("{key}={}", panel.values[n]));
-            changed = true;
-        }
-    }
-    let threads = &panel.values[Panel::THREADS];
-    let threads = match threads.parse::<usize>() {
-        Ok(n) if (1..=crate::cli::MOST_THREADS).contains(&n) => n,
-        _ => {
-            return Err(format!(
-                "threads: a whole number from 1 to {}",
-                crate::cli::MOST_THREADS
-            ));
-        }
-    };
-    let mut name = request.name.clone();
-    if changed && std::path::Path::new(&name).is_dir() {
-        // A run is what it is; its scene can be played otherwise.
-        name = format!("{}/scene.toml", name.trim_end_matches('/'));
-    }
-    Ok(Request {
-        name,
-        set,
-        threads: Some(threads),
-        beside: false,
-    })
 }

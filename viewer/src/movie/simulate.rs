@@ -14,7 +14,7 @@ use loschmidt_runner::output::Snapshot;
 use loschmidt_runner::output::series::{self, SeriesWriter};
 use loschmidt_runner::player::Return;
 use loschmidt_runner::run::Row;
-use loschmidt_runner::{ArithmeticKind, Arrow, Frame, Player, SavedState};
+use loschmidt_runner::{ArithmeticKind, Arrow, Player, Points, SavedState};
 use std::fs::File;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -181,14 +181,18 @@ impl<'a> Export<'a> {
             1
         };
         let wanted = n >= movie.found();
-        let mut frames: Vec<Frame> = Vec::new();
+        let mut pictures: Vec<Points> = Vec::new();
         for strand in &mut self.strands {
             let player = &mut strand.player;
             let row = Row::measure(player, leg).map_err(|fault| fault_of(player, fault))?;
             strand.history.push((&row).into());
             strand.rows.push(row);
             if wanted {
-                frames.push(player.frame().map_err(|fault| fault_of(player, fault))?);
+                let mut points = Points::default();
+                player
+                    .points(&mut points)
+                    .map_err(|fault| fault_of(player, fault))?;
+                pictures.push(points);
             }
         }
         movie.times.simulating += began.elapsed();
@@ -204,10 +208,10 @@ impl<'a> Export<'a> {
         let panes: Vec<Pane<'_>> = self
             .strands
             .iter()
-            .zip(&frames)
-            .map(|(strand, frame)| Pane {
+            .zip(&pictures)
+            .map(|(strand, points)| Pane {
                 label: self.label(strand),
-                ..Pane::new(frame, &strand.history)
+                ..Pane::new(points, &strand.history)
             })
             .collect();
         let (width, height) = movie.style.size;

@@ -10,7 +10,7 @@ use crate::home::Home;
 use loschmidt_runner::output::particles_csv;
 use loschmidt_runner::output::{Manifest, OutputError, RunDirectory, Status, frame_path};
 use loschmidt_runner::scene::{Scene, Source, load};
-use loschmidt_runner::{Frame, Plan, RunError};
+use loschmidt_runner::{Frame, Plan, Points, RunError};
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -162,7 +162,7 @@ impl Movie {
             }
             let began = Instant::now();
             let index = run.nearest(schedule.step(n));
-            let frame = run.frame(index)?;
+            let points = Points::from(&run.frame(index)?);
             self.times.reading += began.elapsed();
             observe(&Progress {
                 done: n,
@@ -174,11 +174,11 @@ impl Movie {
             let history = run.history.until(run.steps[index]);
             let look = Look {
                 turn: schedule.turn(n, self.style.fps),
-                caption: format!("{} particles", with_commas(frame.id.len())),
+                caption: format!("{} particles", with_commas(points.len())),
                 ..look.clone()
             };
             let (width, height) = self.style.size;
-            let raster = draw(&[Pane::new(&frame, &history)], &home, &look, width, height);
+            let raster = draw(&[Pane::new(&points, &history)], &home, &look, width, height);
             self.times.drawing += began.elapsed();
             self.times.pictures += 1;
             self.write_picture(n, &raster)?;

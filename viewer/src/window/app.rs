@@ -7,7 +7,7 @@ use super::log::Log;
 use super::message::{Button, Effect, Message, Mouse};
 use super::state::State;
 use super::update::update;
-use crate::face::{Kept, Request, new_picture};
+use crate::face::{Kept, Request, choices, new_picture};
 use crate::picture::Picture;
 use crate::png;
 use crate::raster::Pixels;
@@ -169,6 +169,7 @@ impl App {
                     self.take(Message::NotOpened(why));
                 }
             },
+            Effect::List => self.take(Message::Choices(choices())),
             Effect::Picture => {
                 let result = self.picture();
                 match &result {
@@ -186,7 +187,7 @@ impl App {
     fn picture(&self) -> Result<PathBuf, String> {
         let raster = compose(&self.state, self.state.size);
         let name = match &self.state.stage {
-            Some(stage) => format!("{}-step-{:06}", stage.home.name, stage.frame.step),
+            Some(stage) => format!("{}-step-{:06}", stage.home.name, stage.points.step),
             None => "loschmidt".to_owned(),
         };
         let (file, path) = new_picture(&name).map_err(|e| format!("no picture: {e}"))?;

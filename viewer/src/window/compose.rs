@@ -38,6 +38,8 @@ pub fn compose_on(raster: &mut Pixels<'_>, state: &State) {
     match &state.overlay {
         Overlay::None => {}
         Overlay::Help => sheets::help(raster, theme),
+        Overlay::Scenes(list) => sheets::scenes(raster, list, theme),
+        Overlay::Parameters(panel) => sheets::parameters(raster, panel, theme),
         Overlay::Error(why) => sheets::error(raster, why, theme),
     }
 }
@@ -49,27 +51,26 @@ fn picture(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Place
         ArithmeticKind::Fixed => "fixed point",
         ArithmeticKind::Float => "floating point",
     };
-    let mut first = Pane::new(&stage.frame, &stage.ways.history);
+    let mut first = Pane::new(&stage.points, &stage.ways.history);
     let height = places.picture.height;
     let Some(other) = &stage.other else {
         return draw_on(raster, &[first], &stage.home, &look, height);
     };
     let asked = stage.opened.options.arithmetic;
     first.label = name(stage.status.arithmetic);
-    let frame = other.frame.as_ref().unwrap_or(&stage.opened.home);
     let second = Pane {
         label: name(match asked {
             ArithmeticKind::Fixed => ArithmeticKind::Float,
             ArithmeticKind::Float => ArithmeticKind::Fixed,
         }),
-        ..Pane::new(frame, &other.ways.history)
+        ..Pane::new(&other.points, &other.ways.history)
     };
     draw_on(raster, &[first, second], &stage.home, &look, height);
 }
 
 /// The look with what follows from the state.
 fn look(state: &State, stage: &Stage) -> Look {
-    let particles = strip::count(stage.frame.id.len() as u64);
+    let particles = strip::count(stage.points.len() as u64);
     Look {
         caption: format!("{particles} particles"),
         turn: Some(f64::from(u8::from(stage.arrow() == Arrow::Backward))),

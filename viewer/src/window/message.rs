@@ -1,6 +1,6 @@
 //! What the window is told, and what it asks for.
 
-use crate::face::Request;
+use crate::face::{Choice, Request};
 use crate::keys::Key;
 use crate::picture::Picture;
 use loschmidt_runner::deck::{Command, Report};
@@ -21,6 +21,8 @@ pub enum Message {
     Report(u64, Box<Report>),
     /// Time goes by, counted from the start of the program.
     Tick(Duration),
+    /// What can be opened.
+    Choices(Vec<Choice>),
     /// A picture was written, or not.
     Pictured(Result<PathBuf, String>),
     /// A picture to tint the fluid with was read, or not.
@@ -60,6 +62,8 @@ pub enum Effect {
     Deck(Command),
     /// To open this in the place of what is open.
     Open(Request),
+    /// To look for what can be opened: answered by [`Message::Choices`].
+    List,
     /// To write what the window shows: answered by [`Message::Pictured`].
     Picture,
     /// To keep the state.

@@ -33,6 +33,7 @@ pub use update::update;
 use crate::colour::Theme;
 use crate::colouring::Colouring;
 use crate::draw::Look;
+use crate::face::MOST_THREADS;
 use crate::face::Request;
 use crate::picture::Picture;
 use app::{App, Wake};
@@ -48,9 +49,6 @@ use winit::event_loop::EventLoop;
 
 /// Exit code after a signal.
 const INTERRUPTED: u8 = 130;
-
-/// Threads of the executor at most.
-const MOST_THREADS: u64 = 1024;
 
 /// What to show, and how.
 #[derive(Args, Clone, Debug)]
@@ -79,7 +77,7 @@ pub struct Arguments {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: (usize, usize),
     /// Threads of the executor [default: as many as there are processors]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_THREADS))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_THREADS as u64))]
     pub threads: Option<u64>,
     /// Tell on standard error what happens, for scripts
     #[arg(long)]

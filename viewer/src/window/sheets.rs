@@ -3,6 +3,7 @@
 use super::places::Places;
 use super::strip::{alarm, count};
 use crate::colour::{Rgb, Theme};
+use crate::face::{List, Panel};
 use crate::keys;
 use crate::raster::{Pixels, Rect};
 use crate::text::{self, Style, Weight};
@@ -119,6 +120,74 @@ pub fn help(raster: &mut Pixels<'_>, theme: &Theme) {
     sheet(raster, within, em, &lines, theme.rule, theme);
 }
 
+/// What can be opened.
+pub fn scenes(raster: &mut Pixels<'_>, list: &List, theme: &Theme) {
+    let within = raster.rect().shrunk(4);
+    let em = raster.height() / 44 + 2;
+    let room = (within.height as f64 / (LINE * em as f64)) as usize;
+    let mut lines = headed("scenes and runs", theme);
+    for (n, choice) in list.visible(room.saturating_sub(6)) {
+        let (mark, colour, weight) = match n == list.chosen {
+            true => ("▸ ", theme.forward, Weight::SemiBold),
+            false => ("", theme.text, Weight::Medium),
+        };
+        lines.push(vec![
+            Piece::new(0.0, mark, colour, weight),
+            Piece::new(1.0, choice.name.clone(), colour, weight),
+            Piece::new(15.0, choice.title.clone(), theme.faint, Weight::Medium),
+        ]);
+    }
+    let keys = "↑ ↓ choose   Enter opens   Esc goes back";
+    footed(&mut lines, keys, theme);
+    sheet(raster, within, em, &lines, theme.rule, theme);
+}
+
+/// The panel of parameters.
+pub fn parameters(raster: &mut Pixels<'_>, panel: &Panel, theme: &Theme) {
+    let mut lines = headed("parameters", theme);
+    for (n, (name, unit, _)) in Panel::FIELDS.iter().enumerate() {
+        let colour = if n == panel.field {
+            theme.forward
+        } else if panel.values[n] != panel.before[n] {
+            theme.backward
+        } else {
+            theme.text
+        };
+        lines.push(vec![
+            Piece::new(0.0, *name, colour, Weight::SemiBold),
+            Piece::new(10.0, panel.shown(n), colour, Weight::Medium),
+            Piece::new(20.0, *unit, theme.faint, Weight::Medium),
+        ]);
+    }
+    if let Some(problem) = &panel.problem {
+        lines.push(Vec::new());
+        for text in problem.lines().filter(|line| !line.trim().is_empty()) {
+            lines.push(vec![Piece::new(0.0, text, alarm(theme), Weight::Medium)]);
+        }
+    }
+    let keys = "type a value   ↑ ↓ field   Enter starts anew   Esc";
+    footed(&mut lines, keys, theme);
+    let em = raster.height() / 40 + 2;
+    sheet(
+        raster,
+        raster.rect().shrunk(4),
+        em,
+        &lines,
+        theme.rule,
+        theme,
+    );
+}
+
+fn headed(title: &str, theme: &Theme) -> Vec<Line> {
+    let title = Piece::new(0.0, title, theme.forward, Weight::SemiBold);
+    vec![vec![title], Vec::new()]
+}
+
+fn footed(lines: &mut Vec<Line>, keys: &str, theme: &Theme) {
+    lines.push(Vec::new());
+    lines.push(vec![Piece::new(0.0, keys, theme.faint, Weight::Medium)]);
+}
+
 /// Why nothing can be shown.
 pub fn error(raster: &mut Pixels<'_>, why: &str, theme: &Theme) {
     let edge = alarm(theme);
@@ -127,13 +196,7 @@ pub fn error(raster: &mut Pixels<'_>, why: &str, theme: &Theme) {
     for text in why.lines() {
         lines.push(vec![Piece::new(0.0, text, theme.text, Weight::Medium)]);
     }
-    lines.push(Vec::new());
-    lines.push(vec![Piece::new(
-        0.0,
-        "q quits",
-        theme.faint,
-        Weight::Medium,
-    )]);
+    footed(&mut lines, "q quits   o opens another scene", theme);
     let within = raster.rect().shrunk(4);
     let em = raster.height() / 40 + 2;
     sheet(raster, within, em, &lines, edge, theme);

@@ -2,14 +2,14 @@
 
 use crate::colour::Rgb;
 use crate::draw::Look;
-use crate::face::{Kept, Notice, Request, is_unsaved};
+use crate::face::{Kept, List, Notice, Panel, Request, is_unsaved};
 use crate::history::History;
 use crate::home::Home;
 use crate::picture::Picture;
 use crate::track::Track;
 use loschmidt_core::Fault;
 use loschmidt_runner::deck::{Arrival, Beside, Moment, Opened, Status};
-use loschmidt_runner::{Arrow, Frame};
+use loschmidt_runner::{Arrow, Points};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -21,6 +21,10 @@ pub enum Overlay {
     None,
     /// The keys.
     Help,
+    /// What can be opened.
+    Scenes(List),
+    /// The panel of parameters.
+    Parameters(Panel),
     /// Nothing can be shown, and why.
     Error(String),
 }
@@ -50,8 +54,8 @@ impl Ways {
 /// The player in the other arithmetic.
 #[derive(Clone, Debug, Default)]
 pub struct Other {
-    /// Its particles; `None` before the first picture.
-    pub frame: Option<Frame>,
+    /// Its particles.
+    pub points: Points,
     /// Its energies and entropies.
     pub ways: Ways,
     /// Why it goes no further.
@@ -66,7 +70,7 @@ pub struct Stage {
     /// What stays the same in all pictures.
     pub home: Home,
     /// The particles.
-    pub frame: Frame,
+    pub points: Points,
     /// Where everything is.
     pub status: Status,
     /// Energies and entropies of both ways.
@@ -93,11 +97,15 @@ impl Stage {
             track.push(opened.first.clone(), Arrow::Forward);
         }
         let home = Home::new(&opened.scene, &opened.home);
+        let points = Points::from(&opened.home);
         Self {
-            frame: opened.home.clone(),
             status: opened.status.clone(),
             ways: Ways::of(track, home.span),
-            other: beside.then(Other::default),
+            other: beside.then(|| Other {
+                points: points.clone(),
+                ..Other::default()
+            }),
+            points,
             tint: tint.map(|picture| picture.tint(&home).into()),
             moment: None,
             wanted: None,
@@ -129,7 +137,7 @@ impl Stage {
         let span = self.home.span;
         let Some(other) = &mut self.other else { return };
         match beside {
-            Beside::Picture(frame) => other.frame = Some(*frame),
+            Beside::Picture(points) => other.points = *points,
             Beside::Row { row, travel } => other.ways.push(*row, travel, span),
             Beside::Ended(fault) => other.ended = Some(fault),
         }

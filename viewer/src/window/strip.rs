@@ -187,7 +187,7 @@ fn doing(stage: &Stage, theme: &Theme) -> Vec<Piece> {
 /// On the way back: who is not on the way home.
 fn astray(stage: &Stage, theme: &Theme) -> Option<(String, Rgb)> {
     let status = &stage.status;
-    let total = count(stage.frame.id.len() as u64);
+    let total = count(stage.points.len() as u64);
     let back = status.arrow == Arrow::Backward || status.seek.is_some();
     match status.astray {
         Some(0) if back => {

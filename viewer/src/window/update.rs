@@ -6,12 +6,14 @@ use super::state::{Drag, Overlay, Stage, State};
 use crate::camera::{Projection, View};
 use crate::colour::Theme;
 use crate::colouring::Colouring;
-use crate::face::{Kept, Notice, Request, Tone, meddled, next_colormap, next_colouring, turned};
+use crate::face::{
+    Answer, Kept, List, Notice, Panel, Request, Tone, meddled, next_colormap, next_colouring,
+    turned,
+};
 use crate::keys::{self, Action, Key};
 use loschmidt_core::Reversibility;
 use loschmidt_runner::deck::{Beside, Command, Report, faster, slower};
-use loschmidt_runner::{ArithmeticKind, Frame};
-use std::path::Path;
+use loschmidt_runner::{ArithmeticKind, Points};
 
 /// Magnification of a notch of the wheel.
 const NOTCH: f64 = 1.15;
@@ -45,8 +47,16 @@ pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
             }
             state.picture = Some(picture);
         }
+        Message::Choices(choices) => {
+            state.overlay = Overlay::Scenes(List::new(choices, &state.request));
+        }
         Message::NotOpened(why) if state.stage.is_none() => state.overlay = Overlay::Error(why),
         Message::NotOpened(why) => {
+            if let Overlay::Parameters(panel) = &mut state.overlay {
+                panel.problem = Some(why);
+                return Vec::new();
+            }
+            state.overlay = Overlay::None;
             let line = why.lines().next().unwrap_or_default().to_owned();
             tell(state, Tone::Refused, line);
         }
@@ -66,9 +76,9 @@ pub fn update(state: &mut State, message: Message) -> Vec<Effect> {
 }
 
 /// The next picture is made in the memory of the one before.
-fn reuse(frame: Option<Frame>) -> Vec<Effect> {
-    let effect = |frame| Effect::Deck(Command::Reuse(Box::new(frame)));
-    frame.map(effect).into_iter().collect()
+fn reuse(points: Option<Points>) -> Vec<Effect> {
+    let effect = |points| Effect::Deck(Command::Reuse(Box::new(points)));
+    points.map(effect).into_iter().collect()
 }
 
 fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
@@ -76,7 +86,7 @@ fn tell(state: &mut State, tone: Tone, text: impl Into<String>) {
 }
 
 /// Takes a report into the state; the picture that a new one has replaced.
-fn on_report(state: &mut State, report: Report) -> Option<Frame> {
+fn on_report(state: &mut State, report: Report) -> Option<Points> {
     match report {
         Report::Opened(opened) => {
             let stage = Stage::new(opened, state.request.beside, state.picture.as_ref());
@@ -103,7 +113,7 @@ fn on_report(state: &mut State, report: Report) -> Option<Frame> {
         Report::Opened(_) | Report::Failed(_) => {}
         Report::Shot(shot) => {
             stage.status = shot.status;
-            return Some(std::mem::replace(&mut stage.frame, shot.frame));
+            return Some(std::mem::replace(&mut stage.points, shot.points));
         }
         Report::Status(status) => {
             // A drag goes on wanting; a key's wish is under way now.
@@ -163,17 +173,34 @@ fn on_report(state: &mut State, report: Report) -> Option<Frame> {
 }
 
 fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
-    let action = keys::window_action(key);
-    if action == Some(Action::Quit) {
+    if key == Key::Ctrl('c') {
         return vec![Effect::Quit];
     }
-    match state.overlay {
+    let action = keys::window_action(key);
+    match &mut state.overlay {
         Overlay::None => {}
         Overlay::Help => {
             state.overlay = Overlay::None;
-            return Vec::new();
+            return match action {
+                Some(Action::Quit) => vec![Effect::Quit],
+                _ => Vec::new(),
+            };
         }
-        Overlay::Error(_) => return Vec::new(),
+        Overlay::Scenes(list) => {
+            let answer = list.key(key, &state.request);
+            return answered(state, answer);
+        }
+        Overlay::Parameters(panel) => {
+            let answer = panel.key(key, &state.request);
+            return answered(state, answer);
+        }
+        Overlay::Error(_) => {
+            return match action {
+                Some(Action::Quit) => vec![Effect::Quit],
+                Some(Action::Scenes) => vec![Effect::List],
+                _ => Vec::new(),
+            };
+        }
     }
     if state.banner.take().is_some() && matches!(action, Some(Action::Play | Action::Cancel)) {
         // These were for the banner; others close it and do what they always do.
@@ -182,10 +209,30 @@ fn on_key(state: &mut State, key: Key) -> Vec<Effect> {
     action.map_or_else(Vec::new, |action| on_action(state, action))
 }
 
+/// Does what a key in a list or a panel leads to.
+fn answered(state: &mut State, answer: Answer) -> Vec<Effect> {
+    match answer {
+        Answer::Stay => {}
+        // Without a scene behind it something must stay that tells how to go on.
+        Answer::Close if state.stage.is_none() => {
+            state.overlay = Overlay::Error("nothing is open".to_owned());
+        }
+        Answer::Close => state.overlay = Overlay::None,
+        Answer::Open(request) => return vec![Effect::Open(request)],
+        Answer::Quit => return vec![Effect::Quit],
+    }
+    Vec::new()
+}
+
 fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
-    if action == Action::Help {
-        state.overlay = Overlay::Help;
-        return Vec::new();
+    match action {
+        Action::Quit => return vec![Effect::Quit],
+        Action::Scenes => return vec![Effect::List],
+        Action::Help => {
+            state.overlay = Overlay::Help;
+            return Vec::new();
+        }
+        _ => {}
     }
     if on_view(state, action) {
         return Vec::new();
@@ -225,12 +272,23 @@ fn on_action(state: &mut State, action: Action) -> Vec<Effect> {
             Vec::new()
         }
         // The one in the middle of the lattice order.
-        Action::Flip => deck(Command::Flip(stage.frame.id.len() as u64 / 2)),
+        Action::Flip => deck(Command::Flip(stage.points.len() as u64 / 2)),
         Action::Switch => deck(Command::Switch(match status.arithmetic {
             ArithmeticKind::Fixed => ArithmeticKind::Float,
             ArithmeticKind::Float => ArithmeticKind::Fixed,
         })),
-        Action::Beside => vec![Effect::Open(with_or_without(&state.request))],
+        // From the start, with the other arithmetic beside it, or without it.
+        Action::Beside => vec![Effect::Open(Request {
+            beside: !state.request.beside,
+            ..state.request.anew()
+        })],
+        Action::Anew => vec![Effect::Open(state.request.anew())],
+        Action::Parameters => {
+            let opened = &stage.opened;
+            let panel = Panel::new(&opened.scene, &opened.options);
+            state.overlay = Overlay::Parameters(panel);
+            Vec::new()
+        }
         Action::Keep => vec![Effect::Keep],
         Action::Picture => vec![Effect::Picture],
         _ => Vec::new(),
@@ -248,20 +306,6 @@ fn turn(stage: &mut Stage) -> Vec<Effect> {
         effects.push(Effect::Deck(Command::Play(true)));
     }
     effects
-}
-
-/// The same from its start, with the other arithmetic beside it, or without it.
-fn with_or_without(request: &Request) -> Request {
-    let mut name = request.name.clone();
-    if Path::new(&name).is_dir() {
-        // A run is what it is; its scene can be played anew.
-        name = format!("{}/scene.toml", name.trim_end_matches('/'));
-    }
-    Request {
-        name,
-        beside: !request.beside,
-        ..request.clone()
-    }
 }
 
 /// What only changes how the scene is looked at; whether it was that.

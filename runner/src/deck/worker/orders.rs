@@ -26,8 +26,8 @@ impl Worker {
                 self.pace = pace;
                 self.clock.set_rate(pace / self.player.scene().time_step());
             }
-            Command::Reuse(frame) => {
-                self.spare = Some(frame);
+            Command::Reuse(points) => {
+                self.spare = Some(points);
                 return;
             }
             Command::Flip(particle) => {

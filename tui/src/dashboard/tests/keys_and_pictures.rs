@@ -1,12 +1,12 @@
 //! What keys do, as effects and in the state.
 
 use super::Bench;
-use crate::dashboard::message::{Choice, Effect, Message, Mouse};
-use crate::dashboard::state::{Overlay, Panel};
+use crate::dashboard::message::{Effect, Message, Mouse};
+use crate::dashboard::state::Overlay;
 use crate::dashboard::view::Areas;
 use loschmidt_runner::deck::{Command, Report};
 use loschmidt_runner::{ArithmeticKind, Arrow};
-use loschmidt_viewer::face::Tone;
+use loschmidt_viewer::face::{Choice, Panel, Tone};
 use loschmidt_viewer::{Colouring, Key, Projection};
 
 fn drop() -> Bench {
@@ -178,6 +178,14 @@ fn a_scene_is_chosen_from_the_list() {
     bench.key(Key::Down);
     let effects = bench.key(Key::Enter);
     assert!(matches!(&effects[..], [Effect::Open(request)] if request.name == "c"));
+}
+
+#[test]
+fn the_scene_begins_anew_with_nothing_done_to_it() {
+    let mut bench = drop();
+    bench.key(Key::Char('b'));
+    let effects = bench.key(Key::Char('n'));
+    assert_eq!(effects, [Effect::Open(bench.state.request.clone())]);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 fn a_key_is_answered_within_50_ms_at_80_000_particles() {
     let mut bench = Bench::open("dam-break", &[], (200, 60));
     let stage = bench.state.stage.as_ref().expect("a scene");
-    assert_eq!(stage.frame.id.len(), 80_000);
+    assert_eq!(stage.points.len(), 80_000);
     bench.deck.send(Command::Pace(1e3));
     let mut drawn = Vec::new();
     let mut heard = Vec::new();

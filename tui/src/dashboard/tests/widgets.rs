@@ -23,7 +23,7 @@ fn a_cell_of_the_field_is_two_pixels_of_the_rasteriser() {
     let stage = state.stage.as_ref().expect("a scene");
     let area = Areas::of(state.size).field;
     let (columns, rows) = (usize::from(area.width), usize::from(area.height));
-    let raster = field(&stage.frame, &stage.home, &state.look, columns, 2 * rows);
+    let raster = field(&stage.points, &stage.home, &state.look, columns, 2 * rows);
     let rgb = |colour: Color| match colour {
         Color::Rgb(r, g, b) => [r, g, b],
         other => panic!("{other:?}"),
@@ -160,9 +160,9 @@ fn the_help_names_every_key_of_the_table() {
         bench.key(Key::Char('?'));
         let mut shown = text(&bench.screen());
         // Where there is no room for all, the arrow keys show the others.
-        bench.key(Key::Down);
-        bench.key(Key::Down);
-        bench.key(Key::Down);
+        for _ in keys::TABLE {
+            bench.key(Key::Down);
+        }
         shown += &text(&bench.screen());
         for binding in keys::TABLE {
             let whole = format!("{} ", binding.names());

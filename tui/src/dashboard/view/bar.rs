@@ -104,7 +104,7 @@ fn shortened(text: &str, room: usize) -> String {
 /// On the way back: who is not on the way home.
 fn astray(stage: &Stage, ink: &Ink) -> Vec<Piece> {
     let status = &stage.status;
-    let total = count(stage.frame.id.len() as u64);
+    let total = count(stage.points.len() as u64);
     let back = status.arrow == Arrow::Backward || status.seek.is_some();
     match status.astray {
         Some(0) if back => vec![(

@@ -16,10 +16,10 @@ pub fn render(stage: &Stage, look: &Look, depth: Depth, area: Rect, buf: &mut Bu
         return;
     }
     if depth.has_pixels() {
-        let raster = field(&stage.frame, &stage.home, look, columns, 2 * rows);
+        let raster = field(&stage.points, &stage.home, look, columns, 2 * rows);
         half_blocks(&raster, area, buf);
     } else {
-        let raster = field(&stage.frame, &stage.home, look, 2 * columns, 4 * rows);
+        let raster = field(&stage.points, &stage.home, look, 2 * columns, 4 * rows);
         braille(&raster, look.theme.background, area, buf);
     }
     mark(stage, look, area, buf, ink);
@@ -80,13 +80,13 @@ fn mark(stage: &Stage, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let Some(particle) = stage.flipped() else {
         return;
     };
-    let place = stage.frame.id.iter().position(|&id| id == particle);
-    let Some(&x) = place.and_then(|place| stage.frame.position.get(place)) else {
+    let points = &stage.points;
+    let Some(place) = points.id.iter().position(|&id| id == particle) else {
         return;
     };
     let (width, height) = (usize::from(area.width), 2 * usize::from(area.height));
     let projection = Projection::new(&stage.home, &look.view, width, height);
-    let Some(at) = projection.project(x) else {
+    let Some(at) = projection.project(points.at(place)) else {
         return;
     };
     if !(at.x >= 0.0 && at.y >= 0.0 && at.x < width as f64 && at.y < height as f64) {

@@ -18,7 +18,7 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
         (" LOSCHMIDT ".to_owned(), ink.badge(ink.time_colour())),
         (format!("  {}  ", scene.name), ink.bold()),
         (
-            format!("{} particles", count(stage.frame.id.len() as u64)),
+            format!("{} particles", count(stage.points.len() as u64)),
             ink.faint(),
         ),
     ];

@@ -121,9 +121,7 @@ impl Widget for &State {
             match &self.overlay {
                 Overlay::None => {}
                 Overlay::Help(first) => overlays::help(*first, area, buf, &ink),
-                Overlay::Scenes { choices, chosen } => {
-                    overlays::scenes(choices, *chosen, area, buf, &ink);
-                }
+                Overlay::Scenes(list) => overlays::scenes(list, area, buf, &ink),
                 Overlay::Parameters(panel) => overlays::parameters(panel, area, buf, &ink),
                 Overlay::Error(why) => overlays::error(why, area, buf, &ink),
             }

@@ -1,9 +1,8 @@
 //! What lies over the rest: help, scenes, parameters, errors.
 
-use super::super::message::Choice;
-use super::super::state::Panel;
 use super::ink::Ink;
 use super::{Piece, width};
+use loschmidt_viewer::face::{List, Panel};
 use loschmidt_viewer::{Rgb, keys};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -104,23 +103,16 @@ pub fn help(first: usize, area: Rect, buf: &mut Buffer, ink: &Ink) {
 }
 
 /// What can be opened.
-pub fn scenes(choices: &[Choice], chosen: usize, area: Rect, buf: &mut Buffer, ink: &Ink) {
-    let column = choices
-        .iter()
-        .map(|c| width(&c.name))
-        .max()
-        .unwrap_or(0)
-        .min(36);
-    let room = usize::from(area.height.saturating_sub(5)).max(1);
-    let first = (chosen + 1)
-        .saturating_sub(room)
-        .min(choices.len().saturating_sub(room));
+pub fn scenes(list: &List, area: Rect, buf: &mut Buffer, ink: &Ink) {
+    let names = list.choices.iter().map(|c| width(&c.name));
+    let column = names.max().unwrap_or(0).min(36);
+    let room = usize::from(area.height.saturating_sub(5));
     let mut lines: Vec<Line> = Vec::new();
-    for (n, choice) in choices.iter().enumerate().skip(first).take(room) {
-        let mark = if n == chosen { "▸ " } else { "  " };
+    for (n, choice) in list.visible(room) {
+        let mark = if n == list.chosen { "▸ " } else { "  " };
         let name: String = choice.name.chars().take(36).collect();
         let pad = " ".repeat(usize::from(column.saturating_sub(width(&name))) + 2);
-        let style = if n == chosen {
+        let style = if n == list.chosen {
             ink.time().add_modifier(Modifier::BOLD)
         } else {
             ink.text()
@@ -144,8 +136,7 @@ pub fn parameters(panel: &Panel, area: Rect, buf: &mut Buffer, ink: &Ink) {
     for (n, (name, unit, _)) in Panel::FIELDS.iter().enumerate() {
         let here = n == panel.field;
         let mark = if here { "▸ " } else { "  " };
-        let value = &panel.values[n];
-        let changed = *value != panel.before[n];
+        let changed = panel.values[n] != panel.before[n];
         let style = if here {
             ink.time().add_modifier(Modifier::BOLD)
         } else if changed {
@@ -153,11 +144,7 @@ pub fn parameters(panel: &Panel, area: Rect, buf: &mut Buffer, ink: &Ink) {
         } else {
             ink.text()
         };
-        let shown = match (n == Panel::INTEGRATOR, here) {
-            (true, true) => format!("◂ {value} ▸"),
-            (false, true) => format!("{value}▏"),
-            _ => value.clone(),
-        };
+        let shown = panel.shown(n);
         lines.push(vec![
             (format!("{mark}{name:<18}"), style),
             (format!("{shown:<20}"), style),

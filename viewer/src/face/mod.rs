@@ -1,6 +1,12 @@
 //! What the faces, dashboard and window, do alike: what they open and keep, and their words for what
 //! happens.
 
+mod list;
+mod panel;
+
+pub use list::{Choice, List, choices};
+pub use panel::Panel;
+
 use crate::colour::Colormap;
 use crate::colouring::Colouring;
 use loschmidt_runner::deck::{Meddling, Opening, OpeningError, Perturbation, Recorded, Status};
@@ -8,7 +14,7 @@ use loschmidt_runner::{ArithmeticKind, Arrow, Options};
 use std::fs::File;
 use std::io::ErrorKind;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// What is to be opened.
@@ -37,6 +43,36 @@ impl Request {
         };
         Opening::of(&self.name, &self.set, options)
     }
+
+    /// The same from its start, with nothing done to it.
+    #[must_use]
+    pub fn anew(&self) -> Self {
+        let mut name = self.name.clone();
+        if Path::new(&name).is_dir() {
+            // A run goes on where it was left; its scene begins.
+            name = format!("{}/scene.toml", name.trim_end_matches('/'));
+        }
+        Self {
+            name,
+            ..self.clone()
+        }
+    }
+}
+
+/// The most threads that a user may ask for: more than any machine has processors for.
+pub const MOST_THREADS: usize = 1024;
+
+/// What a key in an open list or panel leads to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// It stays open.
+    Stay,
+    /// It is closed.
+    Close,
+    /// This is opened in the place of what is open.
+    Open(Request),
+    /// The program ends.
+    Quit,
 }
 
 /// What was kept last: nothing has happened since if it is still so.
