@@ -135,7 +135,7 @@ fn help_theme_and_every_size_can_be_drawn() {
 #[test]
 fn another_scene_is_chosen_from_a_list_and_the_present_one_begins_anew() {
     let mut state = at_forty();
-    let mut press = |state: &mut State, key| update(state, Message::Key(key));
+    let press = |state: &mut State, key| update(state, Message::Key(key));
     assert_eq!(press(&mut state, Key::Char('o')), [Effect::List]);
     let choice = |name: &str| Choice {
         name: name.to_owned(),
@@ -163,7 +163,7 @@ fn another_scene_is_chosen_from_a_list_and_the_present_one_begins_anew() {
 #[test]
 fn the_panel_starts_the_scene_anew_with_its_values() {
     let mut state = at_forty();
-    let mut press = |state: &mut State, key| update(state, Message::Key(key));
+    let press = |state: &mut State, key| update(state, Message::Key(key));
     press(&mut state, Key::Char('e'));
     for c in "-1".chars() {
         press(&mut state, Key::Char(c));
@@ -173,7 +173,8 @@ fn the_panel_starts_the_scene_anew_with_its_values() {
         panic!("{effects:?}");
     };
     assert_eq!(request.set, ["particle_spacing=-1"]);
-    let why = request.opening(Options::default()).err().expect("refused");
+    let opening = request.opening(Options::default());
+    let why = opening.map(|_| "opened").expect_err("refused");
     let shown = compose(&state, SIZE);
     update(&mut state, Message::NotOpened(why.to_string()));
     let Overlay::Parameters(panel) = &state.overlay else {

@@ -53,13 +53,14 @@ impl Panel {
         }
     }
 
-    /// A field as it is shown, with marks where it is edited.
+    /// A field as it is shown: where it is edited, with these marks before and behind what is chosen, and
+    /// behind what is typed.
     #[must_use]
-    pub fn shown(&self, field: usize) -> String {
+    pub fn shown(&self, field: usize, [before, behind, cursor]: [char; 3]) -> String {
         let value = &self.values[field];
         match (field == Self::INTEGRATOR, field == self.field) {
-            (true, true) => format!("◂ {value} ▸"),
-            (false, true) => format!("{value}▏"),
+            (true, true) => format!("{before} {value} {behind}"),
+            (false, true) => format!("{value}{cursor}"),
             _ => value.clone(),
         }
     }

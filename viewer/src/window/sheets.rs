@@ -128,7 +128,7 @@ pub fn scenes(raster: &mut Pixels<'_>, list: &List, theme: &Theme) {
     let mut lines = headed("scenes and runs", theme);
     for (n, choice) in list.visible(room.saturating_sub(6)) {
         let (mark, colour, weight) = match n == list.chosen {
-            true => ("▸ ", theme.forward, Weight::SemiBold),
+            true => (">", theme.forward, Weight::SemiBold),
             false => ("", theme.text, Weight::Medium),
         };
         lines.push(vec![
@@ -137,7 +137,7 @@ pub fn scenes(raster: &mut Pixels<'_>, list: &List, theme: &Theme) {
             Piece::new(15.0, choice.title.clone(), theme.faint, Weight::Medium),
         ]);
     }
-    let keys = "↑ ↓ choose   Enter opens   Esc goes back";
+    let keys = "arrows choose   Enter opens   Esc goes back";
     footed(&mut lines, keys, theme);
     sheet(raster, within, em, &lines, theme.rule, theme);
 }
@@ -155,17 +155,23 @@ pub fn parameters(raster: &mut Pixels<'_>, panel: &Panel, theme: &Theme) {
         };
         lines.push(vec![
             Piece::new(0.0, *name, colour, Weight::SemiBold),
-            Piece::new(10.0, panel.shown(n), colour, Weight::Medium),
+            Piece::new(
+                10.0,
+                panel.shown(n, ['<', '>', '|']),
+                colour,
+                Weight::Medium,
+            ),
             Piece::new(20.0, *unit, theme.faint, Weight::Medium),
         ]);
     }
     if let Some(problem) = &panel.problem {
         lines.push(Vec::new());
-        for text in problem.lines().filter(|line| !line.trim().is_empty()) {
+        // Without the excerpt, which is laid out for letters of one width.
+        for text in problem.lines().filter(|line| !line.starts_with([' ', '|'])) {
             lines.push(vec![Piece::new(0.0, text, alarm(theme), Weight::Medium)]);
         }
     }
-    let keys = "type a value   ↑ ↓ field   Enter starts anew   Esc";
+    let keys = "type a value   arrows choose   Enter starts anew   Esc goes back";
     footed(&mut lines, keys, theme);
     let em = raster.height() / 40 + 2;
     sheet(

@@ -144,7 +144,7 @@ pub fn parameters(panel: &Panel, area: Rect, buf: &mut Buffer, ink: &Ink) {
         } else {
             ink.text()
         };
-        let shown = panel.shown(n);
+        let shown = panel.shown(n, ['◂', '▸', '▏']);
         lines.push(vec![
             (format!("{mark}{name:<18}"), style),
             (format!("{shown:<20}"), style),
