@@ -16,7 +16,7 @@ use crate::text::{self, Style, Weight};
 use loschmidt_runner::Points;
 use std::cell::RefCell;
 
-/// How a frame is drawn.
+/// How points are drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Look {
     /// The camera.
@@ -35,7 +35,7 @@ pub struct Look {
     pub title: Option<String>,
     /// A line under the title.
     pub caption: String,
-    /// How far the arrow of time has turned, 0 forward to 1 backward; `None` takes it from the frame.
+    /// How far the arrow of time has turned, 0 forward to 1 backward; `None` takes it from the points.
     pub turn: Option<f64>,
     /// Whether there is a panel.
     pub panel: bool,

@@ -1,11 +1,11 @@
-//! The particles of a frame: anti-aliased discs that are as large as the particles.
+//! The particles: anti-aliased discs that are as large as they are.
 //!
 //! In the plane the colour of a pixel is the mean of the colours of the discs on it, weighted by their
 //! coverages, and its opacity is the sum of these, at most 1; sums of integers, in which discs
 //! that share an edge leave no seam. In space the particles are balls with light and shade, drawn from the
 //! farthest to the nearest and paler in the distance.
 //!
-//! No pixel depends on the order of the particles in the frame, nor on the number of threads.
+//! No pixel depends on the order of the particles, nor on the number of threads.
 
 use crate::bands::{self, Piece};
 use crate::camera::Projection;
