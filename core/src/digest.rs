@@ -11,7 +11,7 @@
 //! | 8 | 0 for fluid, 1 for a wall |
 //! | 8 | id; of a wall, the number of fluid particles plus its place in storage |
 //! | 8 each | fluid: every field of the state, in order, component by component |
-//! | 8 each | walls: position, component by component; density field |
+//! | 8 each | walls: those fields that walls have too (position; density field of water) |
 //!
 //! These hashes are added as 128-bit integers, modulo 2^128, so the fluid's order of storage is
 //! irrelevant (walls have no id of their own and keep their order). The digest is H of
@@ -29,8 +29,9 @@
 //! Words of a fixed-point state are its integers; of a floating-point one, the bits of the `f64`
 //! with negative zero as zero. As text, a digest is 32 hexadecimal digits, its bytes in order.
 
-use crate::number::{Arithmetic, Quantity, Scale};
-use crate::state::System;
+use crate::fields::{MAX_FIELDS, Side, state_fields};
+use crate::number::{Arithmetic, Scale};
+use crate::system::System;
 use core::fmt;
 use core::hash::Hasher;
 use siphasher::sip128::{Hasher128, SipHasher24};
@@ -75,8 +76,8 @@ impl Hashing {
     }
 }
 
-/// Most words in one particle's record: kind, id, position, velocity, density in 3D.
-const MAX_WORDS: usize = 9;
+/// Most words in one particle's record: kind, id, and the words of its state.
+const MAX_WORDS: usize = 64;
 
 /// Fluid or wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,8 +101,8 @@ pub struct Header<'a> {
     pub fluid: u64,
     /// Number of wall particles.
     pub walls: u64,
-    /// Names of the fields, in order; three names of at most 32 bytes.
-    pub fields: [&'a str; 3],
+    /// Names of the particles' fields, in order.
+    pub fields: &'a [&'a str],
 }
 
 /// The order-free sum of the particles' hashes.
@@ -109,7 +110,7 @@ pub struct Header<'a> {
 pub struct ParticleSum(u128);
 
 impl ParticleSum {
-    /// Adds a particle with these words (at most 7) after kind and id.
+    /// Adds a particle with these words (at most 62) after kind and id.
     pub fn add(&mut self, kind: Kind, id: u64, words: impl IntoIterator<Item = i64>) {
         let mut bytes = [0u8; 8 * MAX_WORDS];
         let mut used = 0;
@@ -126,12 +127,8 @@ impl ParticleSum {
     /// The digest of header and sum.
     #[must_use]
     pub fn finish(self, header: &Header<'_>) -> Digest {
-        // 20 + 56 + 3 * (8 + 32) + 16 bytes at most.
-        let mut bytes = heapless::Vec::<u8, 256>::new();
-        let mut push = |more: &[u8]| {
-            let _ = bytes.extend_from_slice(more);
-        };
-        push(b"loschmidt digest 1.0");
+        let mut hashing = Hashing::default();
+        hashing.add(b"loschmidt digest 1.0");
         for word in [
             header.dimension as i64,
             i64::from(!header.fixed_point),
@@ -141,42 +138,43 @@ impl ParticleSum {
             header.fluid as i64,
             header.walls as i64,
         ] {
-            push(&word.to_le_bytes());
+            hashing.add(&word.to_le_bytes());
         }
         for name in header.fields {
-            push(&(name.len() as u64).to_le_bytes());
-            push(name.as_bytes());
+            hashing.add(&(name.len() as u64).to_le_bytes());
+            hashing.add(name.as_bytes());
         }
-        push(&self.0.to_le_bytes());
-        Digest(hash(&bytes))
+        hashing.add(&self.0.to_le_bytes());
+        Digest(hashing.finish())
     }
 }
 
-/// The digest of fluid and walls.
+/// The digest of particles and walls.
 #[must_use]
 pub fn digest<A: Arithmetic, const D: usize>(system: &System<'_, A, D>, scale: &Scale) -> Digest {
-    let state = &system.state;
-    let walls = &system.walls;
-    let fields = state.fields();
     let mut sum = ParticleSum::default();
-    for (place, id) in state.id.iter().enumerate() {
-        let words = fields
-            .iter()
-            .enumerate()
-            .flat_map(|(f, field)| (0..field.components).map(move |c| state.word(f, c, place)));
-        sum.add(Kind::Fluid, *id, words);
+    for (set, kind) in [
+        (&system.particles, Kind::Fluid),
+        (&system.walls, Kind::Wall),
+    ] {
+        for (place, id) in set.id.iter().enumerate() {
+            let words = state_fields(set.fields(), set.side()).flat_map(|(f, field)| {
+                let components = 0..field.words(set.side(), D);
+                components.map(move |c| set.word(f, c, place))
+            });
+            sum.add(kind, *id, words);
+        }
     }
-    for (w, (x, density)) in walls.position.iter().zip(&*walls.density).enumerate() {
-        let words = x.iter().map(|x| x.to_word());
-        let id = (state.len() + w) as u64;
-        sum.add(Kind::Wall, id, words.chain([density.to_word()]));
-    }
+    let fields = system.particles.fields();
+    let names: heapless::Vec<&str, MAX_FIELDS> = state_fields(fields, Side::Particles)
+        .map(|(_, field)| field.name)
+        .collect();
     sum.finish(&Header {
         dimension: D,
         fixed_point: A::EXACT,
         scale: *scale,
-        fluid: state.len() as u64,
-        walls: walls.position.len() as u64,
-        fields: fields.map(|field| field.name),
+        fluid: system.particles.len() as u64,
+        walls: system.walls.len() as u64,
+        fields: &names,
     })
 }

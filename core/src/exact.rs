@@ -4,7 +4,7 @@
 //! bits for any order and any partition of the terms, so energies on the way back equal those on
 //! the way out to the last bit, on any number of threads.
 
-use crate::number::{Accumulate, Real, power_of_two};
+use crate::number::{Accumulate, power_of_two};
 
 const FRACTION_BITS: i32 = 60;
 
@@ -12,10 +12,10 @@ const FRACTION_BITS: i32 = 60;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExactSum(i128);
 
-impl<R: Real> Accumulate<R> for ExactSum {
+impl Accumulate for ExactSum {
     #[inline]
-    fn accumulate(self, term: R) -> Option<Self> {
-        Some(self.plus(term.to_f64()))
+    fn accumulate(self, term: f64) -> Option<Self> {
+        Some(self.plus(term))
     }
     fn plus_quanta(self, quanta: i64) -> Self {
         Self(self.0.saturating_add(i128::from(quanta) << FRACTION_BITS))

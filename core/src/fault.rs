@@ -20,9 +20,6 @@ pub enum FaultKind {
     /// The density constants were never computed: the model's `initialise` comes first.
     #[error("the run was not initialised")]
     NotInitialised,
-    /// The memory lent for a run is of the wrong length; found when the run is set up.
-    #[error("the slice lent for {0} has the wrong length")]
-    Capacity(&'static str),
     /// More neighbours than an integer sum is guaranteed to hold.
     #[error("it has more than {MAX_NEIGHBOURS} neighbours")]
     Crowded,
@@ -65,15 +62,6 @@ impl Fault {
     #[must_use]
     pub fn at_step(self, step: u64) -> Self {
         Self { step, ..self }
-    }
-    /// The same fault in this step, unless it names one.
-    #[must_use]
-    pub(crate) fn unless_known(self, step: u64) -> Self {
-        if self.step == 0 {
-            self.at_step(step)
-        } else {
-            self
-        }
     }
     /// Of two faults in one pass, the one that is reported, of the earlier step or of the smaller id:
     /// independent of who finds it first.

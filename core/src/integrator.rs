@@ -1,4 +1,4 @@
-//! Integrators as tables of kicks and drifts.
+//! Stages of a step, and integrators as tables of kicks and drifts.
 //!
 //! A step of size dt is a symmetric composition of the two exact shears
 //!
@@ -15,13 +15,17 @@
 //! | [`PEFRL`] | 4 | 4 | Omelyan, Mryglod & Folk, Comput. Phys. Commun. 146 (2002) 188 |
 //! | [`SUZUKI`] | 4 | 5 | M. Suzuki, Phys. Lett. A 146 (1990) 319 |
 
-/// One entry of a table; the coefficient multiplies the time step.
+/// One part of a step; the coefficient multiplies the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stage {
     /// Velocities advance by the impulse of the forces.
     Kick(f64),
     /// Positions advance with the velocity.
     Drift(f64),
+    /// What else a particle carries advances with the motion.
+    Lift(f64),
+    /// Many states become one.
+    Relax,
 }
 
 use Stage::{Drift, Kick};

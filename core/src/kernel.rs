@@ -12,21 +12,21 @@
 //!
 //! Only `+ - * /` occur, in one written order; no power, no exponential.
 
-use crate::number::{Lanes, Real};
+use crate::number::Lanes;
 use core::f64::consts::PI;
 
 /// The kernel for a support radius, with the unit of r chosen by the caller.
 #[derive(Clone, Copy, Debug)]
-pub struct WendlandC2<R> {
+pub struct WendlandC2 {
     /// 1/h, in 1/(unit of r).
-    inverse_support: R,
+    inverse_support: f64,
     /// α, 1/m^D.
-    value_factor: R,
+    value_factor: f64,
     /// -20 α/h², 1/m^(D+2).
-    derivative_factor: R,
+    derivative_factor: f64,
 }
 
-impl<R: Real> WendlandC2<R> {
+impl WendlandC2 {
     /// Kernel in `dimension` 2 or 3 with `support_radius` in m; distances will be given in units of
     /// `unit` metres (a length quantum inside a step, 1 for a physicist).
     #[must_use]
@@ -37,49 +37,49 @@ impl<R: Real> WendlandC2<R> {
             _ => 21.0 / (2.0 * PI * h * h * h),
         };
         Self {
-            inverse_support: R::from_f64(unit / h),
-            value_factor: R::from_f64(alpha),
-            derivative_factor: R::from_f64(-20.0 * alpha / (h * h)),
+            inverse_support: unit / h,
+            value_factor: alpha,
+            derivative_factor: -20.0 * alpha / (h * h),
         }
     }
 
     /// W(r), 1/m^D.
     #[inline(always)]
-    pub fn value<L: Lanes<R>>(&self, r: L) -> L {
+    pub fn value<L: Lanes>(&self, r: L) -> L {
         self.value_at(self.q(r))
     }
 
     /// W'(r)/r, 1/m^(D+2), never positive.
     #[inline(always)]
-    pub fn derivative_over_r<L: Lanes<R>>(&self, r: L) -> L {
+    pub fn derivative_over_r<L: Lanes>(&self, r: L) -> L {
         self.derivative_over_r_at(self.q(r))
     }
 
     /// q = r/h, from which W and W'/r follow without a root or a division.
     #[inline(always)]
-    pub fn q<L: Lanes<R>>(&self, r: L) -> L {
+    pub fn q<L: Lanes>(&self, r: L) -> L {
         r * r.splat(self.inverse_support)
     }
 
     /// W at this q, 1/m^D.
     #[inline(always)]
-    pub fn value_at<L: Lanes<R>>(&self, q: L) -> L {
+    pub fn value_at<L: Lanes>(&self, q: L) -> L {
         let t = Self::t(q);
         let t2 = t * t;
-        let four = q.splat(R::from_f64(4.0));
-        let one = q.splat(R::from_f64(1.0));
+        let four = q.splat(4.0);
+        let one = q.splat(1.0);
         q.splat(self.value_factor) * ((t2 * t2) * (one + four * q))
     }
 
     /// W'/r at this q, 1/m^(D+2), never positive.
     #[inline(always)]
-    pub fn derivative_over_r_at<L: Lanes<R>>(&self, q: L) -> L {
+    pub fn derivative_over_r_at<L: Lanes>(&self, q: L) -> L {
         let t = Self::t(q);
         q.splat(self.derivative_factor) * (t * t * t)
     }
 
     #[inline(always)]
-    fn t<L: Lanes<R>>(q: L) -> L {
-        (q.splat(R::from_f64(1.0)) - q).positive_part()
+    fn t<L: Lanes>(q: L) -> L {
+        (q.splat(1.0) - q).positive_part()
     }
 }

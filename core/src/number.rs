@@ -1,4 +1,4 @@
-//! Number formats: fixed point for the state, floating point for one pair at a time.
+//! Number formats: fixed point for the state, doubles for one pair at a time.
 //!
 //! A coordinate is an integer multiple of a *quantum*, and the position of the binary point is
 //! part of its type:
@@ -16,7 +16,7 @@
 //! # The one rounding rule, and why it is odd
 //!
 //! Every number that enters the state is computed in floating point and rounded once by
-//! [`Real::round`], to the nearest integer, ties to even:
+//! [`round`], to the nearest integer, ties to even:
 //!
 //! R(x) = (x + 3·2^51) - 3·2^51, for |x| < 2^51.
 //!
@@ -31,9 +31,9 @@
 //! `as` would have turned it into 0.
 
 use core::fmt::Debug;
-use core::ops::{Add, Div, Mul, Neg, Sub};
+use core::ops::{Add, Div, Mul, Sub};
 use fixed::FixedI64;
-use fixed::types::extra::{LeEqU64, U40, U46, Unsigned};
+use fixed::types::extra::{LeEqU64, U0, U40, U46, Unsigned};
 
 /// A position or displacement component, in scene units of 2^k m.
 pub type Length = FixedI64<U46>;
@@ -42,6 +42,9 @@ pub type Speed = FixedI64<U40>;
 /// A density, in scene units of 2^d kg/m³.
 pub type Density = FixedI64<U40>;
 
+/// Quanta of a field whose unit is declared elsewhere: the integers themselves.
+pub type Whole = FixedI64<U0>;
+
 /// Bound, in quanta, of what rounding accepts and of what the state may hold: magnitudes below
 /// 2^51. (The last accepted ones, from 2^51 - 1/2 on, round to 2^51 itself.)
 pub const LIMIT_BITS: i64 = 1 << 51;
@@ -49,107 +52,79 @@ const LIMIT: f64 = LIMIT_BITS as f64;
 /// 3·2^51: adding it rounds any |x| < 2^51 to an integer.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
-/// Pair arithmetic: the floating-point type in which one pair term is computed.
-///
-/// The hosts use `f64`. The trait is kept small so that an `f32` with its own rounding may serve
-/// targets where a double costs a hundred instructions; the state stays 64 bits wide either way.
-pub trait Real:
-    Copy
-    + Debug
-    + PartialOrd
-    + Send
-    + Sync
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-    + 'static
-{
-    /// Nearest value of this type.
-    fn from_f64(x: f64) -> Self;
-    /// Nearest value of this type; exact for `f64` up to 2^53.
-    fn from_i64(x: i64) -> Self;
-    /// The value as a double.
-    fn to_f64(self) -> f64;
-    /// Square root, correctly rounded.
-    fn sqrt(self) -> Self;
-    /// R(x), the only way into the state; `None` for |x| >= 2^51 and for a NaN.
-    fn round(self) -> Option<i64>;
+/// Square root, correctly rounded: the standard library's where there is one, which the compiler
+/// writes in place; `libm`'s elsewhere.
+#[inline(always)]
+#[must_use]
+pub fn sqrt(x: f64) -> f64 {
+    #[cfg(feature = "std")]
+    return x.sqrt();
+    #[cfg(not(feature = "std"))]
+    return libm::sqrt(x);
 }
 
-impl Real for f64 {
-    #[inline]
-    fn from_f64(x: f64) -> Self {
-        x
-    }
-    #[inline]
-    fn from_i64(x: i64) -> Self {
-        x as f64
-    }
-    #[inline]
-    fn to_f64(self) -> f64 {
-        self
-    }
-    #[inline]
-    fn sqrt(self) -> Self {
-        libm::sqrt(self)
-    }
-    #[inline]
-    fn round(self) -> Option<i64> {
-        // Written so that a NaN fails it.
-        if self.abs() < LIMIT {
-            let shifted = (self + ROUNDER).to_bits();
-            Some(shifted.wrapping_sub(ROUNDER.to_bits()) as i64)
-        } else {
-            None
-        }
+/// R(x), the only way into the state; `None` for |x| >= 2^51 and for a NaN.
+#[inline]
+#[must_use]
+pub fn round(x: f64) -> Option<i64> {
+    // Written so that a NaN fails it.
+    if x.abs() < LIMIT {
+        let shifted = (x + ROUNDER).to_bits();
+        Some(shifted.wrapping_sub(ROUNDER.to_bits()) as i64)
+    } else {
+        None
     }
 }
 
-/// Several reals at once, or one: what a pair term is written in.
+/// Several doubles at once, or one: what a pair term is written in.
 ///
-/// A term is one expression; for `L = R` it is the plain reference, for an array of reals it is
-/// what an executor evaluates for a row of neighbours. Every lane goes through the operations of the
+/// A term is one expression; for `f64` it is the plain reference, for a row of doubles it is what
+/// an executor evaluates for a row of neighbours. Every lane goes through the operations of the
 /// expression in its order, so it has the bits of the plain one.
-pub trait Lanes<R: Real>:
+pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// `value` in as many lanes as `self` has.
-    fn splat(self, value: R) -> Self;
+    fn splat(self, value: f64) -> Self;
     /// Square root, correctly rounded.
     fn root(self) -> Self;
     /// x where x > 0, else 0 (also for a NaN).
     fn positive_part(self) -> Self;
+    /// This value where `x` < `limit`, else 0: for terms that do not vanish at their reach by
+    /// themselves.
+    fn where_below(self, x: Self, limit: Self) -> Self;
 }
 
-impl<R: Real> Lanes<R> for R {
+impl Lanes for f64 {
     #[inline(always)]
-    fn splat(self, value: R) -> Self {
+    fn splat(self, value: f64) -> Self {
         value
     }
     #[inline(always)]
     fn root(self) -> Self {
-        self.sqrt()
+        sqrt(self)
     }
     #[inline(always)]
     fn positive_part(self) -> Self {
-        let zero = R::from_f64(0.0);
-        if self > zero { self } else { zero }
+        if self > 0.0 { self } else { 0.0 }
+    }
+    #[inline(always)]
+    fn where_below(self, x: Self, limit: Self) -> Self {
+        if x < limit { self } else { 0.0 }
     }
 }
 
 /// What integers or other exact numbers a sum is made of.
-pub trait Accumulate<R>: Copy + Send + Sync {
+pub trait Accumulate: Copy + Send + Sync {
     /// The sum with one more term, rounded once; `None` where the term is out of range.
-    fn accumulate(self, term: R) -> Option<Self>;
+    fn accumulate(self, term: f64) -> Option<Self>;
     /// The sum with whole quanta that were rounded and summed elsewhere.
     fn plus_quanta(self, quanta: i64) -> Self;
 }
 
-impl<R: Real, Q: Quantity> Accumulate<R> for Q {
+impl<Q: Quantity> Accumulate for Q {
     #[inline]
-    fn accumulate(self, term: R) -> Option<Self> {
+    fn accumulate(self, term: f64) -> Option<Self> {
         self.add_rounded(term)
     }
     #[inline]
@@ -159,19 +134,19 @@ impl<R: Real, Q: Quantity> Accumulate<R> for Q {
 }
 
 /// One component of the state: a fixed-point number, or the float it is compared with.
-pub trait Quantity: Copy + Default + Debug + PartialEq + Send + Sync + 'static {
+pub trait Quantity: Copy + Default + Debug + PartialEq + Send + Sync + bytemuck::Pod {
     /// Zero.
     const ZERO: Self;
-    /// The value in quanta, as a real; exact within the state's range for `f64`.
-    fn quanta<R: Real>(self) -> R;
+    /// The value in quanta; exact within the state's range.
+    fn quanta(self) -> f64;
     /// The nearest whole number of quanta, for exact diagnostics.
     fn whole_quanta(self) -> i64;
     /// So many quanta.
     fn from_whole_quanta(quanta: i64) -> Self;
     /// `self - other` in quanta, exact for fixed point within range.
-    fn difference<R: Real>(self, other: Self) -> R;
+    fn difference(self, other: Self) -> f64;
     /// `self + R(x)` with x in quanta; `None` where |x| >= 2^51 or x is a NaN.
-    fn add_rounded<R: Real>(self, x: R) -> Option<Self>;
+    fn add_rounded(self, x: f64) -> Option<Self>;
     /// `self + other`; wraps at 2^63 quanta, which the range checks of the state keep out of reach.
     fn plus(self, other: Self) -> Self;
     /// `-self`.
@@ -189,8 +164,8 @@ pub trait Quantity: Copy + Default + Debug + PartialEq + Send + Sync + 'static {
 impl<Frac: Unsigned + LeEqU64 + Send + Sync + 'static> Quantity for FixedI64<Frac> {
     const ZERO: Self = FixedI64::ZERO;
     #[inline]
-    fn quanta<R: Real>(self) -> R {
-        R::from_i64(self.to_bits())
+    fn quanta(self) -> f64 {
+        self.to_bits() as f64
     }
     #[inline]
     fn whole_quanta(self) -> i64 {
@@ -201,13 +176,12 @@ impl<Frac: Unsigned + LeEqU64 + Send + Sync + 'static> Quantity for FixedI64<Fra
         Self::from_bits(quanta)
     }
     #[inline]
-    fn difference<R: Real>(self, other: Self) -> R {
-        R::from_i64(self.wrapping_sub(other).to_bits())
+    fn difference(self, other: Self) -> f64 {
+        self.wrapping_sub(other).to_bits() as f64
     }
     #[inline]
-    fn add_rounded<R: Real>(self, x: R) -> Option<Self> {
-        x.round()
-            .map(|bits| self.wrapping_add(Self::from_bits(bits)))
+    fn add_rounded(self, x: f64) -> Option<Self> {
+        round(x).map(|bits| self.wrapping_add(Self::from_bits(bits)))
     }
     #[inline]
     fn plus(self, other: Self) -> Self {
@@ -240,8 +214,8 @@ impl<Frac: Unsigned + LeEqU64 + Send + Sync + 'static> Quantity for FixedI64<Fra
 impl Quantity for f64 {
     const ZERO: Self = 0.0;
     #[inline]
-    fn quanta<R: Real>(self) -> R {
-        R::from_f64(self)
+    fn quanta(self) -> f64 {
+        self
     }
     #[inline]
     fn whole_quanta(self) -> i64 {
@@ -252,12 +226,11 @@ impl Quantity for f64 {
         quanta as f64
     }
     #[inline]
-    fn difference<R: Real>(self, other: Self) -> R {
-        R::from_f64(self - other)
+    fn difference(self, other: Self) -> f64 {
+        self - other
     }
     #[inline]
-    fn add_rounded<R: Real>(self, x: R) -> Option<Self> {
-        let x = x.to_f64();
+    fn add_rounded(self, x: f64) -> Option<Self> {
         (x.abs() < LIMIT).then_some(self + x)
     }
     #[inline]
@@ -286,7 +259,38 @@ impl Quantity for f64 {
     }
 }
 
-/// Which numbers the state is made of, and in which the pair terms are computed.
+/// A number of any kind in 64 bits: what the memory of a system is made of, before the binary
+/// point of its field is known.
+pub trait Word: Quantity {
+    /// A word that holds this double.
+    fn of_real(x: f64) -> Self;
+    /// The double that it holds.
+    fn real(self) -> f64;
+}
+
+impl Word for Whole {
+    #[inline]
+    fn of_real(x: f64) -> Self {
+        Self::from_bits(x.to_bits() as i64)
+    }
+    #[inline]
+    fn real(self) -> f64 {
+        f64::from_bits(self.to_bits() as u64)
+    }
+}
+
+impl Word for f64 {
+    #[inline]
+    fn of_real(x: f64) -> Self {
+        x
+    }
+    #[inline]
+    fn real(self) -> f64 {
+        self
+    }
+}
+
+/// Which numbers the state is made of.
 pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     /// Type of a position component.
     type Length: Quantity;
@@ -294,24 +298,21 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     type Speed: Quantity;
     /// Type of a density.
     type Density: Quantity;
-    /// Type of a pair term before it is rounded.
-    type Real: Real + Quantity;
-    /// `"fixed"` or `"float"`; part of the digest's header.
-    const NAME: &'static str;
+    /// Quanta of any field: all fields are stored as these.
+    type Word: Word;
     /// True where the sums do not depend on their order, and so a step can be undone exactly.
     const EXACT: bool;
 }
 
-/// Fixed-point state, pair terms in `R`: exact sums, exact reversal.
+/// Fixed-point state: exact sums, exact reversal.
 #[derive(Clone, Copy, Debug)]
-pub struct Fixed<R = f64>(core::marker::PhantomData<R>);
+pub struct Fixed;
 
-impl<R: Real + Quantity> Arithmetic for Fixed<R> {
+impl Arithmetic for Fixed {
     type Length = Length;
     type Speed = Speed;
     type Density = Density;
-    type Real = R;
-    const NAME: &'static str = "fixed";
+    type Word = Whole;
     const EXACT: bool = true;
 }
 
@@ -324,8 +325,7 @@ impl Arithmetic for Float {
     type Length = f64;
     type Speed = f64;
     type Density = f64;
-    type Real = f64;
-    const NAME: &'static str = "float";
+    type Word = f64;
     const EXACT: bool = false;
 }
 

@@ -2,9 +2,9 @@
 //!
 //! ```
 //! use loschmidt_core::integrator::STORMER_VERLET;
-//! use loschmidt_core::model::{DensityCorrection, Gravity, StateEquation, Wall};
-//! use loschmidt_core::owned::Owned;
-//! use loschmidt_core::{Fixed, Forces, Model, Parameters, Scale, Serial, Symplectic};
+//! use loschmidt_core::owned::{Owned, words};
+//! use loschmidt_core::schemes::wcsph::{DensityCorrection, Gravity, StateEquation, Wall};
+//! use loschmidt_core::{Fixed, Model, Parameters, Scale, Serial, Symplectic};
 //!
 //! let spacing = 0.1; // m
 //! let parameters = Parameters {
@@ -24,8 +24,10 @@
 //!     extent: [1.0, 1.0],
 //!     max_buckets: 64,                        // so that B = 65 is enough
 //! };
-//! let model = Symplectic::<Fixed, 2>::new(Forces::new(parameters)?);
-//! let mut drop = Owned::<Fixed, _, 2, 25, 0, 65>::new(model)?;
+//! type Water = Symplectic<Fixed, 2>;
+//! const WORDS: usize = words(<Water as Model<Fixed, 2>>::FIELDS, 2, 25, 0);
+//! let model = Water::new(parameters)?;
+//! let mut drop = Owned::<Fixed, _, 2, 25, 0, 65, WORDS>::new(model)?;
 //! for i in 0..25 {
 //!     let at = |k: i32| (f64::from(k) + 0.5) * spacing;
 //!     drop.push_fluid([at(i % 5), at(i / 5)], [0.0, 0.0])?;
@@ -41,39 +43,45 @@
 //! ```
 //!
 //! For targets without an allocator, and for small systems in tests. Capacities are const
-//! generics: N fluid particles, W wall particles, and B >= buckets + 1 words for each grid. A push
-//! beyond the capacity gives the particle back.
+//! generics: N fluid particles, W wall particles, B >= buckets + 1 words for each grid, and K words
+//! of memory for the fields ([`words`]). A push beyond the capacity gives the particle back.
 
 use crate::executor::Executor;
 use crate::fault::{CapacityError, Fault};
+use crate::fields::{Field, Set, Side, check_capacity, words_each};
 use crate::model::Model;
-use crate::neighbours::Cells;
+use crate::neighbours::{Cells, Grid};
 use crate::number::{Arithmetic, Quantity, Scale};
-use crate::state::{Progress, Scratch, State, System, Walls};
+use crate::system::{Clock, System};
 use heapless::Vec;
 
-/// A system in `heapless` vectors.
+/// Words of memory that so many particles and walls with these fields take.
+#[must_use]
+pub const fn words(fields: &[Field], dimension: usize, particles: usize, walls: usize) -> usize {
+    particles * words_each(fields, Side::Particles, dimension)
+        + walls * words_each(fields, Side::Walls, dimension)
+}
+
+/// A system in arrays and `heapless` vectors.
 #[derive(Debug)]
-pub struct Owned<A: Arithmetic, M, const D: usize, const N: usize, const W: usize, const B: usize> {
+pub struct Owned<
+    A: Arithmetic,
+    M,
+    const D: usize,
+    const N: usize,
+    const W: usize,
+    const B: usize,
+    const K: usize,
+> {
     model: M,
     id: Vec<u64, N>,
-    position: Vec<[A::Length; D], N>,
-    velocity: Vec<[A::Speed; D], N>,
-    density: Vec<A::Density, N>,
-    wall_position: Vec<[A::Length; D], W>,
-    wall_velocity: Vec<[A::Speed; D], W>,
-    wall_density: Vec<A::Density, W>,
-    progress: Progress,
-    scratch_density: Vec<A::Density, N>,
-    scratch_pressure: Vec<A::Real, N>,
-    scratch_impulse: Vec<[A::Speed; D], N>,
-    scratch_order: Vec<u32, N>,
-    scratch_start: Vec<u32, B>,
-    scratch_wall_order: Vec<u32, W>,
-    scratch_wall_start: Vec<u32, B>,
-    scratch_wall_density: Vec<A::Density, W>,
-    scratch_wall_fixed: Vec<A::Density, W>,
-    scratch_wall_pressure: Vec<A::Real, W>,
+    wall_id: Vec<u64, W>,
+    memory: [A::Word; K],
+    clock: Clock,
+    start: [u32; B],
+    order: [u32; N],
+    wall_start: [u32; B],
+    wall_order: [u32; W],
 }
 
 /// A particle was not taken.
@@ -93,7 +101,8 @@ pub enum PushError<const D: usize> {
     },
 }
 
-impl<A, M, const D: usize, const N: usize, const W: usize, const B: usize> Owned<A, M, D, N, W, B>
+impl<A, M, const D: usize, const N: usize, const W: usize, const B: usize, const K: usize>
+    Owned<A, M, D, N, W, B, K>
 where
     A: Arithmetic,
     M: Model<A, D>,
@@ -101,51 +110,26 @@ where
     /// An empty system.
     ///
     /// # Errors
-    /// B is smaller than one of the grids needs.
+    /// B is smaller than one of the grids needs, or K than [`words`] says.
     pub fn new(model: M) -> Result<Self, CapacityError> {
-        let needed = 1 + model
-            .forces()
-            .grid()
-            .buckets()
-            .max(model.forces().wall_grid().buckets());
-        let mut scratch_start = Vec::new();
-        let mut scratch_wall_start = Vec::new();
-        let error = CapacityError {
-            what: "cell start",
-            needed,
-            given: B,
-        };
-        scratch_start
-            .resize(1 + model.forces().grid().buckets(), 0)
-            .map_err(|_| error)?;
-        scratch_wall_start
-            .resize(1 + model.forces().wall_grid().buckets(), 0)
-            .map_err(|_| error)?;
+        let [grid, wall_grid] = model.grids().map(Grid::buckets);
+        check_capacity("cell start", 1 + grid.max(wall_grid), B)?;
+        check_capacity("words of memory", words(M::FIELDS, D, N, W), K)?;
         Ok(Self {
             model,
             id: Vec::new(),
-            position: Vec::new(),
-            velocity: Vec::new(),
-            density: Vec::new(),
-            wall_position: Vec::new(),
-            wall_velocity: Vec::new(),
-            wall_density: Vec::new(),
-            progress: Progress::default(),
-            scratch_density: Vec::new(),
-            scratch_pressure: Vec::new(),
-            scratch_impulse: Vec::new(),
-            scratch_order: Vec::new(),
-            scratch_start,
-            scratch_wall_order: Vec::new(),
-            scratch_wall_start,
-            scratch_wall_density: Vec::new(),
-            scratch_wall_fixed: Vec::new(),
-            scratch_wall_pressure: Vec::new(),
+            wall_id: Vec::new(),
+            memory: [A::Word::ZERO; K],
+            clock: Clock::default(),
+            start: [0; B],
+            order: [0; N],
+            wall_start: [0; B],
+            wall_order: [0; W],
         })
     }
 
     fn scale(&self) -> Scale {
-        self.model.forces().parameters().scale
+        self.model.scale()
     }
 
     /// Adds a fluid particle at `position` (m) with `velocity` (m/s); ids count from 0.
@@ -159,21 +143,15 @@ where
     ) -> Result<(), PushError<D>> {
         let scale = self.scale();
         let range = PushError::Range { position };
-        let full = PushError::Full { position };
         let x = to_quanta(position, scale.length_quantum()).ok_or(range)?;
         let v = to_quanta(velocity, scale.speed_quantum()).ok_or(range)?;
-        self.id.push(self.id.len() as u64).map_err(|_| full)?;
-        // All of these have the capacity of `id`, which had room.
-        let _ = self.position.push(x);
-        let _ = self.velocity.push(v);
-        let _ = self.density.push(A::Density::ZERO);
-        let _ = self.scratch_density.push(A::Density::ZERO);
-        let _ = self
-            .scratch_pressure
-            .push(crate::number::Real::from_f64(0.0));
-        let _ = self.scratch_impulse.push([A::Speed::ZERO; D]);
-        let _ = self.scratch_order.push(0);
-        self.progress.invalidate();
+        let place = self.id.len();
+        self.id
+            .push(place as u64)
+            .map_err(|_| PushError::Full { position })?;
+        let (_, mut system) = self.parts();
+        system.particles.position_mut()[place] = x;
+        system.particles.velocity_mut()[place] = v;
         Ok(())
     }
 
@@ -184,18 +162,12 @@ where
     pub fn push_wall(&mut self, position: [f64; D]) -> Result<(), PushError<D>> {
         let x = to_quanta(position, self.scale().length_quantum())
             .ok_or(PushError::Range { position })?;
-        self.wall_position
-            .push(x)
+        let place = self.wall_id.len();
+        self.wall_id
+            .push(0)
             .map_err(|_| PushError::Full { position })?;
-        let _ = self.wall_velocity.push([A::Speed::ZERO; D]);
-        let _ = self.wall_density.push(A::Density::ZERO);
-        let _ = self.scratch_wall_order.push(0);
-        let _ = self.scratch_wall_density.push(A::Density::ZERO);
-        let _ = self.scratch_wall_fixed.push(A::Density::ZERO);
-        let _ = self
-            .scratch_wall_pressure
-            .push(crate::number::Real::from_f64(0.0));
-        self.progress.invalidate();
+        let (_, mut system) = self.parts();
+        system.walls.position_mut()[place] = x;
         Ok(())
     }
 
@@ -205,43 +177,34 @@ where
         &self.model
     }
 
-    /// Model and system, the latter as borrowed slices.
+    /// Model and system, the latter on borrowed memory.
     pub fn parts(&mut self) -> (&M, System<'_, A, D>) {
+        let grids = self.model.grids();
+        let [buckets, wall_buckets] = grids.map(Grid::buckets);
+        let (n, w) = (self.id.len(), self.wall_id.len());
+        let of_particles = N * words_each(M::FIELDS, Side::Particles, D);
+        let (memory, wall_memory) = self.memory.split_at_mut(of_particles);
+        let particles = Set::over(&mut self.id, memory, N, M::FIELDS, Side::Particles);
+        let walls = Set::over(&mut self.wall_id, wall_memory, W, M::FIELDS, Side::Walls);
         let system = System {
-            state: State {
-                id: &mut self.id,
-                position: &mut self.position,
-                velocity: &mut self.velocity,
-                density: &mut self.density,
-                density_role: M::DENSITY_ROLE,
+            // `new` has compared all sizes.
+            particles: particles.unwrap_or_else(|error| unreachable!("{error}")),
+            walls: walls.unwrap_or_else(|error| unreachable!("{error}")),
+            grids,
+            cells: Cells {
+                start: &mut self.start[..=buckets],
+                order: &mut self.order[..n],
             },
-            walls: Walls {
-                position: &mut self.wall_position,
-                velocity: &mut self.wall_velocity,
-                density: &mut self.wall_density,
+            wall_cells: Cells {
+                start: &mut self.wall_start[..=wall_buckets],
+                order: &mut self.wall_order[..w],
             },
-            scratch: Scratch {
-                density: &mut self.scratch_density,
-                pressure: &mut self.scratch_pressure,
-                impulse: &mut self.scratch_impulse,
-                cells: Cells {
-                    start: &mut self.scratch_start,
-                    order: &mut self.scratch_order,
-                },
-                wall_cells: Cells {
-                    start: &mut self.scratch_wall_start,
-                    order: &mut self.scratch_wall_order,
-                },
-                wall_density: &mut self.scratch_wall_density,
-                wall_density_fixed: &mut self.scratch_wall_fixed,
-                wall_pressure: &mut self.scratch_wall_pressure,
-            },
-            progress: &mut self.progress,
+            clock: &mut self.clock,
         };
         (&self.model, system)
     }
 
-    /// Computes the density constants (or densities) of the initial state.
+    /// Sets up what follows from the initial positions; after the last particle.
     ///
     /// # Errors
     /// As [`Model::initialise`].
@@ -256,7 +219,7 @@ where
     /// As [`Model::step`].
     pub fn advance<E: Executor>(&mut self, steps: u64, exec: &E) -> Result<(), Fault> {
         let (model, mut system) = self.parts();
-        model.steps(&mut system, exec, steps)
+        (0..steps).try_for_each(|_| model.step(&mut system, exec))
     }
 
     /// Turns time round.

@@ -9,8 +9,10 @@
 //! that walks half of the pairs what the partner receives.
 
 use crate::fault::{FaultKind, MAX_NEIGHBOURS};
+use crate::fields::{Column, read};
 use crate::neighbours::{CellsView, Grid};
-use crate::number::{Accumulate, Arithmetic, Lanes, Quantity, Real};
+use crate::number::{Accumulate, Arithmetic, Lanes, Quantity};
+use crate::values::Values;
 
 /// How a term changes when the two particles are exchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,41 +23,67 @@ pub enum Parity {
     Antisymmetric,
 }
 
-/// One sum over pairs, written once for every executor.
+/// One sum over pairs, or several at once, written once for every executor.
 ///
-/// READ is the number of words the term needs of each particle besides its position, TERM the
-/// number of components of the term.
-pub trait PairPass<A: Arithmetic, const D: usize, const READ: usize, const TERM: usize>:
-    Sync
-{
-    /// What is read of each particle.
-    type Word: Quantity;
-    /// The exact numbers that are summed.
-    type Sum: Accumulate<A::Real>;
-    /// Behaviour under exchange of the pair.
-    const PARITY: Parity;
-    /// Squared distance, in length quanta, from which on the term is zero.
-    fn reach_squared(&self) -> A::Real;
-    /// A number that no component of a term exceeds in magnitude where no word of either particle
-    /// exceeds `largest`; infinite where there is none.
-    fn bound(&self, largest: &[A::Real; READ]) -> f64;
+/// `Read` and `Term` are small structs with named numbers ([`values!`](crate::values!)), vectors
+/// `[T; D]` or single numbers; an executor evaluates the term for one pair or for a row of them.
+pub trait PairPass<const D: usize>: Sync {
+    /// What the term needs of each particle besides its position.
+    type Read<T: Copy>: Values<T>;
+    /// What a pair contributes; each number is a sum with a quantum of its own.
+    type Term<T: Copy>: Values<T>;
+    /// Behaviour of each number of the term under exchange of the pair.
+    const PARITY: Self::Term<Parity>;
+    /// Squared distance, in length quanta, from which on the term is zero. The expression of
+    /// [`PairPass::term`] must give zero there by itself: executors evaluate it for more distant
+    /// pairs too.
+    fn reach_squared(&self) -> f64;
+    /// A number that no number of a term exceeds in magnitude where nothing that is read of either
+    /// particle exceeds `largest`; infinite where there is none. It is what allows an executor to
+    /// leave out the check of the range of each term.
+    fn bound(&self, largest: &Self::Read<f64>) -> f64;
     /// What the term needs of r² = |x_ij|² (length quanta squared); passes that need the same can
     /// share it.
-    fn argument<L: Lanes<A::Real>>(&self, r2: L) -> L;
-    /// The term, in quanta of the sum and not yet rounded, for x_ij = x_i - x_j (length quanta),
-    /// the argument of |x_ij|² and the words of i and j in quanta.
-    fn term<L: Lanes<A::Real>>(
+    fn argument<L: Lanes>(&self, r2: L) -> L;
+    /// The term, in quanta of its sums and not yet rounded, for x_ij = x_i - x_j (length quanta),
+    /// the argument of |x_ij|², and what is read of i and j (in quanta of their fields).
+    fn term<L: Lanes>(
         &self,
         x_ij: &[L; D],
         argument: L,
-        i: &[L; READ],
-        j: &[L; READ],
-    ) -> [L; TERM];
+        i: &Self::Read<L>,
+        j: &Self::Read<L>,
+    ) -> Self::Term<L>;
+}
+
+/// Numbers that a pass reads of each particle.
+#[must_use]
+pub const fn read_count<P: PairPass<D>, const D: usize>() -> usize {
+    <P::Read<f64> as Values<f64>>::COUNT
+}
+
+/// Numbers of a term.
+#[must_use]
+pub const fn term_count<P: PairPass<D>, const D: usize>() -> usize {
+    <P::Term<f64> as Values<f64>>::COUNT
+}
+
+/// The particles that receive a sum.
+#[derive(Clone, Copy, Debug)]
+pub struct Targets<'a, A: Arithmetic, const D: usize> {
+    /// Positions.
+    pub position: &'a [[A::Length; D]],
+    /// What the pass reads of them.
+    pub read: &'a [Column<'a, A::Word>],
+    /// Ids, to name a particle that fails.
+    pub id: &'a [u64],
+    /// True where targets and sources are the same set: a particle is not its own neighbour.
+    pub same_set: bool,
 }
 
 /// The particles a sum runs over: positions, what the pass reads of them, and their cells.
-#[derive(Debug)]
-pub struct Sources<'a, A: Arithmetic, T, const D: usize, const READ: usize> {
+#[derive(Clone, Copy, Debug)]
+pub struct Sources<'a, A: Arithmetic, const D: usize> {
     /// Cells of this set.
     pub grid: &'a Grid<D>,
     /// The set sorted into the cells.
@@ -63,7 +91,7 @@ pub struct Sources<'a, A: Arithmetic, T, const D: usize, const READ: usize> {
     /// Positions.
     pub position: &'a [[A::Length; D]],
     /// What the pass reads.
-    pub read: &'a [[T; READ]],
+    pub read: &'a [Column<'a, A::Word>],
 }
 
 /// x_i - x_j in length quanta, and its square.
@@ -71,99 +99,81 @@ pub struct Sources<'a, A: Arithmetic, T, const D: usize, const READ: usize> {
 pub fn separation<A: Arithmetic, const D: usize>(
     x_i: &[A::Length; D],
     x_j: &[A::Length; D],
-) -> ([A::Real; D], A::Real) {
-    let x_ij: [A::Real; D] = core::array::from_fn(|d| x_i[d].difference(x_j[d]));
+) -> ([f64; D], f64) {
+    let x_ij: [f64; D] = core::array::from_fn(|d| x_i[d].difference(x_j[d]));
     let mut r2 = x_ij[0] * x_ij[0];
     for x in &x_ij[1..] {
-        r2 = r2 + *x * *x;
+        r2 += *x * *x;
     }
     (x_ij, r2)
 }
 
-/// Words as reals, in quanta.
-#[inline]
-pub fn read<R: Real, Q: Quantity, const READ: usize>(words: &[Q; READ]) -> [R; READ] {
-    words.map(Quantity::quanta)
-}
-
-/// Adds a term to a sum, each component rounded by itself; false where one is out of range.
-#[inline]
-pub fn accumulate<S: Accumulate<R>, R: Copy, const TERM: usize>(
-    sum: &mut [S; TERM],
-    term: [R; TERM],
-) -> bool {
-    for (sum, term) in sum.iter_mut().zip(term) {
-        match sum.accumulate(term) {
-            Some(new) => *sum = new,
+/// Adds a term to a sum, each number rounded by itself; false where one is out of range.
+#[inline(always)]
+pub fn accumulate<S: Accumulate, V: Values<S>, T: Values<f64>>(sum: &mut V, term: &T) -> bool {
+    for k in 0..T::COUNT {
+        match sum.get(k).accumulate(term.get(k)) {
+            Some(new) => sum.set(k, new),
             None => return false,
         }
     }
     true
 }
 
-/// Adds to `sum` the terms of one particle at `x_i` with all `from` but index `skip`.
+/// Adds to `sum` the terms of target `i` with all `from` but itself.
 ///
 /// The plain traversal: every candidate of the 3^D cells, one after another. It is the reference
 /// that faster ones must equal.
 ///
 /// # Errors
 /// [`FaultKind::TermRange`] and [`FaultKind::Crowded`]; the sum is then of no use.
-pub fn gather<A, P, const D: usize, const READ: usize, const TERM: usize>(
+pub fn gather<A, P, S, const D: usize>(
     pass: &P,
-    x_i: &[A::Length; D],
-    read_i: &[P::Word; READ],
-    from: &Sources<'_, A, P::Word, D, READ>,
-    skip: Option<usize>,
-    sum: &mut [P::Sum; TERM],
+    to: &Targets<'_, A, D>,
+    i: usize,
+    from: &Sources<'_, A, D>,
+    sum: &mut P::Term<S>,
 ) -> Result<(), FaultKind>
 where
     A: Arithmetic,
-    P: PairPass<A, D, READ, TERM>,
+    P: PairPass<D>,
+    S: Accumulate,
 {
-    let mut gathering = Gathering::new(pass, x_i, read_i, from, skip, sum);
-    from.cells.around(from.grid, x_i, |run| gathering.add(run));
+    let mut gathering = Gathering::new(pass, to, i, from, sum);
+    from.cells.around(from.grid, &to.position[i], |run| {
+        gathering.add(run);
+    });
     gathering.end()
 }
 
 /// One particle's sum while its candidates come in.
-#[derive(Debug)]
-pub struct Gathering<'a, A, P, const D: usize, const READ: usize, const TERM: usize>
-where
-    A: Arithmetic,
-    P: PairPass<A, D, READ, TERM>,
-{
+pub struct Gathering<'a, A: Arithmetic, P: PairPass<D>, S: Copy, const D: usize> {
     pass: &'a P,
     x_i: &'a [A::Length; D],
-    read_i: [A::Real; READ],
-    from: &'a Sources<'a, A, P::Word, D, READ>,
+    read_i: P::Read<f64>,
+    from: &'a Sources<'a, A, D>,
     skip: u32,
-    sum: &'a mut [P::Sum; TERM],
+    sum: &'a mut P::Term<S>,
     neighbours: u32,
     in_range: bool,
 }
 
-impl<'a, A, P, const D: usize, const READ: usize, const TERM: usize>
-    Gathering<'a, A, P, D, READ, TERM>
-where
-    A: Arithmetic,
-    P: PairPass<A, D, READ, TERM>,
-{
+impl<'a, A: Arithmetic, P: PairPass<D>, S: Accumulate, const D: usize> Gathering<'a, A, P, S, D> {
     /// See [`gather`].
     #[inline]
     pub fn new(
         pass: &'a P,
-        x_i: &'a [A::Length; D],
-        read_i: &[P::Word; READ],
-        from: &'a Sources<'a, A, P::Word, D, READ>,
-        skip: Option<usize>,
-        sum: &'a mut [P::Sum; TERM],
+        to: &Targets<'a, A, D>,
+        i: usize,
+        from: &'a Sources<'a, A, D>,
+        sum: &'a mut P::Term<S>,
     ) -> Self {
         Self {
             pass,
-            x_i,
-            read_i: read(read_i),
+            x_i: &to.position[i],
+            read_i: read(to.read, i),
             from,
-            skip: skip.map_or(u32::MAX, |i| i as u32),
+            skip: if to.same_set { i as u32 } else { u32::MAX },
             sum,
             neighbours: 0,
             in_range: true,
@@ -178,10 +188,10 @@ where
             let (x_ij, r2) = separation::<A, D>(self.x_i, &self.from.position[j as usize]);
             if r2 < reach_squared && j != self.skip {
                 self.neighbours += 1;
-                let read_j = read(&self.from.read[j as usize]);
+                let read_j = read(self.from.read, j as usize);
                 let argument = self.pass.argument(r2);
                 let term = self.pass.term(&x_ij, argument, &self.read_i, &read_j);
-                self.in_range &= accumulate(self.sum, term);
+                self.in_range &= accumulate(self.sum, &term);
             }
         }
     }

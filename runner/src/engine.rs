@@ -2,20 +2,22 @@
 
 mod pictures;
 
+use crate::drive::{self, Drive, Held};
 use crate::executor::{AnyExecutor, ExecutorKind, Rayon};
 use crate::fast::Fast;
 use crate::frame::Frame;
 use crate::points::Points;
 use crate::random::SplitMix64;
-use crate::saved::{ArithmeticKind, SavedState};
+use crate::saved::{ArithmeticKind, SavedField, SavedState};
 use crate::scene::InitialState;
 use crate::simulation::{BuildError, Options, Simulation};
 use crate::storage::Storage;
+use loschmidt_core::fields::{Set, Side, TimeParity, state_fields};
+use loschmidt_core::model::Model;
 use loschmidt_core::number::Quantity;
 use loschmidt_core::owned::to_quanta;
 use loschmidt_core::{
-    Arithmetic, Diagnostics, Digest, Executor, Fault, Forces, Model, Parameters, Progress,
-    Reversibility, Serial,
+    Arithmetic, Clock, Diagnostics, Digest, Fault, Reversibility, Serial, System,
 };
 use rayon::prelude::*;
 
@@ -32,34 +34,34 @@ pub(crate) struct Engine<A: Arithmetic, M, const D: usize> {
 
 impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
     pub(crate) fn new(
-        parameters: Parameters<D>,
+        model: M,
         particles: &InitialState,
         options: &Options,
     ) -> Result<Self, BuildError> {
-        let scale = parameters.scale;
-        let forces = Forces::new(parameters)?;
+        let scale = model.scale();
         let n = particles.fluid.len();
         let mut order: Vec<u64> = (0..n as u64).collect();
         if let Some(seed) = options.shuffle {
             shuffle(&mut order, seed);
         }
-        let walls = particles.wall.len();
-        let mut storage = Storage::new(order, walls, M::DENSITY_ROLE, &forces);
-        let system = storage.system();
-        for (place, &id) in system.state.id.iter().enumerate() {
-            let range = BuildError::Range { particle: id };
-            let i = id as usize;
-            system.state.position[place] =
-                to_quanta(first(particles.fluid[i]), scale.length_quantum())
-                    .ok_or(BuildError::Range { particle: id })?;
-            system.state.velocity[place] =
-                to_quanta(first(particles.fluid_velocity[i]), scale.speed_quantum())
-                    .ok_or(range)?;
+        let mut storage = Storage::new(&model, order, particles.wall.len());
+        let mut system = storage.system();
+        let (length, speed) = (scale.length_quantum(), scale.speed_quantum());
+        for place in 0..n {
+            let particle = system.particles.id[place];
+            let range = BuildError::Range { particle };
+            let x = to_quanta(first(particles.fluid[particle as usize]), length);
+            let v = to_quanta(first(particles.fluid_velocity[particle as usize]), speed);
+            let (Some(x), Some(v)) = (x, v) else {
+                return Err(range);
+            };
+            system.particles.position_mut()[place] = x;
+            system.particles.velocity_mut()[place] = v;
         }
         for (w, x) in particles.wall.iter().enumerate() {
             let particle = (n + w) as u64;
-            system.walls.position[w] = to_quanta(first(*x), scale.length_quantum())
-                .ok_or(BuildError::Range { particle })?;
+            system.walls.position_mut()[w] =
+                to_quanta(first(*x), length).ok_or(BuildError::Range { particle })?;
         }
         let executor = match options.executor {
             ExecutorKind::Serial => AnyExecutor::Serial(Serial),
@@ -69,7 +71,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
             }
         };
         let mut engine = Self {
-            model: M::new(forces),
+            model,
             storage,
             executor,
             released: false,
@@ -80,40 +82,36 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
 
     /// Calls `task` with the executor's own type.
     fn with_executor<T: Task<A, M, D>>(&mut self, task: T) -> T::Output {
-        let mut system = self.storage.system();
+        let (mut system, held) = self.storage.parts();
         let model = &self.model;
         match &self.executor {
-            AnyExecutor::Serial(exec) => task.run(model, &mut system, exec),
-            AnyExecutor::Rayon(exec) => exec.install(|| task.run(model, &mut system, exec)),
-            AnyExecutor::Fast(exec) => exec.install(|| task.run(model, &mut system, &**exec)),
+            AnyExecutor::Serial(exec) => task.run(model, &mut system, held, exec),
+            AnyExecutor::Rayon(exec) => exec.install(|| task.run(model, &mut system, held, exec)),
+            AnyExecutor::Fast(exec) => exec.install(|| task.run(model, &mut system, held, &**exec)),
         }
     }
 
     /// To be called before anything that looks for neighbours.
     fn wake(&mut self) {
         if std::mem::take(&mut self.released) {
-            self.storage.progress.invalidate();
+            self.storage.held = Held::default();
         }
     }
 
-    fn forces(&self) -> &Forces<A, D> {
-        self.model.forces()
-    }
-
-    /// Has the densities of the present state in the scratch.
-    fn know_density(&mut self) -> Result<(), Fault> {
-        if !self.storage.progress.density_is_current() {
-            self.wake();
-            self.with_executor(UpdateDensity)?;
+    /// Has what diagnostics and pictures read of the present state in the scratch.
+    fn refresh(&mut self) -> Result<(), Fault> {
+        if self.storage.held.refreshed {
+            return Ok(());
         }
-        Ok(())
+        self.wake();
+        self.with_executor(Refresh)
     }
 
     /// Places of the particles in id order.
     fn places(&mut self) -> Vec<usize> {
         let system = self.storage.system();
-        let mut place = vec![0; system.state.len()];
-        for (p, id) in system.state.id.iter().enumerate() {
+        let mut place = vec![0; system.particles.len()];
+        for (p, id) in system.particles.id.iter().enumerate() {
             place[*id as usize] = p;
         }
         place
@@ -123,23 +121,25 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
 /// Something done with model, system and executor of known types.
 trait Task<A: Arithmetic, M: Model<A, D>, const D: usize>: Send {
     type Output: Send;
-    fn run<E: Executor>(
+    fn run<E: Drive + Sync>(
         self,
         model: &M,
-        system: &mut loschmidt_core::System<'_, A, D>,
+        system: &mut System<'_, A, D>,
+        held: &mut Held,
         exec: &E,
     ) -> Self::Output;
 }
 
 macro_rules! task {
-    ($name:ident $(($field:ident: $ty:ty))?, $output:ty, |$model:ident, $system:ident, $exec:ident $(, $arg:ident)?| $body:expr) => {
+    ($name:ident $(($field:ident: $ty:ty))?, |$model:ident, $system:ident, $held:ident, $exec:ident $(, $arg:ident)?| $body:expr) => {
         struct $name$(($ty))?;
         impl<A: Arithmetic, M: Model<A, D>, const D: usize> Task<A, M, D> for $name {
-            type Output = $output;
-            fn run<E: Executor>(
+            type Output = Result<(), Fault>;
+            fn run<E: Drive + Sync>(
                 self,
                 $model: &M,
-                $system: &mut loschmidt_core::System<'_, A, D>,
+                $system: &mut System<'_, A, D>,
+                $held: &mut Held,
                 $exec: &E,
             ) -> Self::Output {
                 $(let $arg = self.0;)?
@@ -149,21 +149,30 @@ macro_rules! task {
     };
 }
 
-task!(Initialise, Result<(), Fault>, |model, system, exec| model.initialise(system, exec));
-task!(Advance(steps: u64), Result<(), Fault>, |model, system, exec, steps| {
-    model.steps(system, exec, steps)
+task!(Initialise, |model, system, held, exec| {
+    *held = Held::default();
+    model.initialise(system, exec)
 });
-task!(Measure, Result<Diagnostics, Fault>, |model, system, exec| {
-    Diagnostics::measure(model, system, exec)
+task!(PlaceWalls, |model, system, held, exec| {
+    *held = Held::default();
+    model.place_walls(system, exec)
 });
-task!(UpdateDensity, Result<(), Fault>, |model, system, exec| {
-    let step = system.progress.step;
-    model.update_density(system, exec).map_err(|fault| fault.at_step(step))
+task!(Advance(steps: u64), |model, system, held, exec, steps| {
+    drive::advance(model, system, exec, held, steps)
+});
+task!(Refresh, |model, system, held, exec| {
+    *held = Held::default();
+    let step = system.clock.step;
+    model
+        .refresh(system, exec)
+        .map_err(|fault| fault.at_step(step))?;
+    *held = Held::refreshed();
+    Ok(())
 });
 
-impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine<A, M, D> {
+impl<A: Arithmetic, M: Model<A, D>, const D: usize> Simulation for Engine<A, M, D> {
     fn step(&self) -> u64 {
-        self.storage.progress.step
+        self.storage.clock.step
     }
 
     fn advance(&mut self, steps: u64) -> Result<(), Fault> {
@@ -180,97 +189,57 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
     }
 
     fn measure(&mut self) -> Result<Diagnostics, Fault> {
-        self.wake();
-        self.with_executor(Measure)
+        self.refresh()?;
+        Diagnostics::of(&self.model, &self.storage.system())
     }
 
     fn digest(&mut self) -> Digest {
-        let scale = self.forces().parameters().scale;
+        let scale = self.model.scale();
         loschmidt_core::digest::digest(&self.storage.system(), &scale)
     }
 
     fn save(&mut self) -> SavedState {
         let places = self.places();
-        let scale = self.forces().parameters().scale;
-        let step = self.step();
+        let (scale, step) = (self.model.scale(), self.step());
         let system = self.storage.system();
-        let state = &system.state;
-        let fields = state.fields().into_iter().enumerate().map(|(f, field)| {
-            let components = field.components;
-            let mut words = vec![0; places.len() * components];
-            let copy = || {
-                words
-                    .par_chunks_exact_mut(components)
-                    .with_min_len(PART)
-                    .zip(&places)
-                    .for_each(|(words, &place)| {
-                        for (c, word) in words.iter_mut().enumerate() {
-                            *word = state.word(f, c, place);
-                        }
-                    });
-            };
-            on_threads(&self.executor, copy);
-            (field.name.to_owned(), words)
-        });
+        let walls: Vec<usize> = (0..system.walls.len()).collect();
         SavedState {
             dimension: D,
             arithmetic: kind::<A>(),
             scale,
             step,
-            id: (0..state.len() as u64).collect(),
-            fields: fields.collect(),
-            wall_position: words(system.walls.position.iter().flatten()),
-            wall_density: words(system.walls.density.iter()),
+            id: (0..places.len() as u64).collect(),
+            fields: saved_fields(&self.executor, &system.particles, &places),
+            walls: walls.len(),
+            wall_fields: saved_fields(&self.executor, &system.walls, &walls),
         }
     }
 
     fn restore(&mut self, saved: &SavedState) -> Result<(), BuildError> {
         let foreign = |what| Err(BuildError::Foreign(what));
         let places = self.places();
-        let scale = self.forces().parameters().scale;
+        let scale = self.model.scale();
         let mut system = self.storage.system();
-        let fields = system.state.fields();
         if saved.dimension != D || saved.id.len() != places.len() {
             return foreign("it has another number of particles or dimensions");
         }
         if saved.scale != scale || saved.arithmetic != kind::<A>() {
             return foreign("it has other units or another arithmetic");
         }
-        if saved.wall_density.len() != system.walls.position.len()
-            || saved.wall_position.len() != D * system.walls.position.len()
-        {
+        let walls: Vec<usize> = (0..system.walls.len()).collect();
+        if saved.walls != walls.len() || !fits(&system.walls, &saved.wall_fields) {
             return foreign("it has other walls");
         }
-        let fits = saved.fields.len() == fields.len()
-            && fields.iter().zip(&saved.fields).all(|(f, (name, words))| {
-                f.name == name && words.len() == f.components * places.len()
-            });
-        if !fits {
+        if !fits(&system.particles, &saved.fields) {
             return foreign("it has other fields");
         }
-        for (f, (_, words)) in saved.fields.iter().enumerate() {
-            let components = fields[f].components;
-            for (n, &place) in places.iter().enumerate() {
-                for c in 0..components {
-                    system
-                        .state
-                        .set_word(f, c, place, words[n * components + c]);
-                }
-            }
-        }
-        let walls = &mut system.walls;
-        for (x, &w) in walls
-            .position
-            .iter_mut()
-            .flatten()
-            .zip(&saved.wall_position)
-        {
-            *x = A::Length::from_word(w);
-        }
-        for (x, &w) in walls.density.iter_mut().zip(&saved.wall_density) {
-            *x = A::Density::from_word(w);
-        }
-        *system.progress = Progress::at_step(saved.step);
+        put(&mut system.particles, &saved.fields, &places);
+        put(&mut system.walls, &saved.wall_fields, &walls);
+        *system.clock = Clock {
+            step: saved.step,
+            initialised: true,
+        };
+        self.with_executor(PlaceWalls)?;
         Ok(())
     }
 
@@ -282,16 +251,19 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
     }
 
     fn frame(&mut self) -> Result<Frame, Fault> {
-        self.know_density()?;
+        self.refresh()?;
         let places = self.places();
-        let p = *self.forces().parameters();
-        Ok(pictures::frame(&self.storage.system(), &p, &places))
+        Ok(pictures::frame(
+            &self.storage.system(),
+            &self.model,
+            &places,
+        ))
     }
 
     fn points(&mut self, points: &mut Points) -> Result<(), Fault> {
-        self.know_density()?;
-        let p = *self.forces().parameters();
-        pictures::points(&self.storage.system(), &p, &self.executor, points);
+        self.refresh()?;
+        let system = self.storage.system();
+        pictures::points(&system, &self.model, &self.executor, points);
         Ok(())
     }
 
@@ -311,11 +283,69 @@ impl<A: Arithmetic, M: Model<A, D> + Send, const D: usize> Simulation for Engine
     }
 
     fn flip_last_bit(&mut self, id: u64) {
-        let system = self.storage.system();
-        if let Some(place) = system.state.id.iter().position(|&i| i == id) {
-            let x = &mut system.state.position[place][0];
+        let mut system = self.storage.system();
+        if let Some(place) = system.particles.id.iter().position(|&i| i == id) {
+            let x = &mut system.particles.position_mut()[place][0];
             *x = A::Length::from_word(x.to_word() ^ 1);
-            system.progress.invalidate();
+            self.storage.held = Held::default();
+        }
+    }
+}
+
+/// The fields of a set, the particles at these places.
+fn saved_fields<A: Arithmetic, const D: usize>(
+    executor: &AnyExecutor,
+    set: &Set<'_, A, D>,
+    places: &[usize],
+) -> Vec<SavedField> {
+    let fields = state_fields(set.fields(), set.side()).map(|(f, field)| {
+        let components = field.words(set.side(), D);
+        let mut words = vec![0; places.len() * components];
+        let copy = || {
+            words
+                .par_chunks_exact_mut(components)
+                .with_min_len(PART)
+                .zip(places)
+                .for_each(|(words, &place)| {
+                    for (c, word) in words.iter_mut().enumerate() {
+                        *word = set.word(f, c, place);
+                    }
+                });
+        };
+        on_threads(executor, copy);
+        SavedField {
+            name: field.name.to_owned(),
+            odd: field.parity == TimeParity::Odd,
+            words,
+        }
+    });
+    fields.collect()
+}
+
+/// Whether saved fields are those of a set.
+fn fits<A: Arithmetic, const D: usize>(set: &Set<'_, A, D>, saved: &[SavedField]) -> bool {
+    let fields = state_fields(set.fields(), set.side());
+    let same = |((_, field), saved): ((_, &loschmidt_core::fields::Field), &SavedField)| {
+        // Format 1.0 does not name the fields of walls.
+        let name = set.side() == Side::Walls || field.name == saved.name;
+        name && saved.words.len() == field.words(set.side(), D) * set.len()
+    };
+    fields.clone().count() == saved.len() && fields.zip(saved).all(same)
+}
+
+/// Puts saved fields back, the n-th particle to the n-th of these places.
+fn put<A: Arithmetic, const D: usize>(
+    set: &mut Set<'_, A, D>,
+    saved: &[SavedField],
+    places: &[usize],
+) {
+    let fields = state_fields(set.fields(), set.side()).zip(saved);
+    for ((f, field), saved) in fields {
+        let components = field.words(set.side(), D);
+        for (words, &place) in saved.words.chunks_exact(components).zip(places) {
+            for (c, word) in words.iter().enumerate() {
+                set.set_word(f, c, place, *word);
+            }
         }
     }
 }
@@ -327,10 +357,6 @@ fn on_threads(executor: &AnyExecutor, work: impl FnOnce() + Send) {
         AnyExecutor::Rayon(exec) => exec.install(work),
         AnyExecutor::Fast(exec) => exec.install(work),
     }
-}
-
-fn words<'a, Q: Quantity>(values: impl Iterator<Item = &'a Q>) -> Vec<i64> {
-    values.map(|v| v.to_word()).collect()
 }
 
 fn first<const D: usize>(x: [f64; 3]) -> [f64; D] {

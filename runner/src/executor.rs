@@ -5,14 +5,18 @@
 //! on a distance (two candidates in three are out of reach, and nothing predicts which), the second
 //! adds their terms. They are the terms of the core's plain `gather`, in the same order.
 
+use crate::drive::Drive;
 use crate::fast::Fast;
-use loschmidt_core::executor::Targets;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
-use loschmidt_core::pairs::{PairPass, Sources, accumulate, read, separation};
+use loschmidt_core::fields::{Operands, Set, read};
+use loschmidt_core::neighbours::{Cells, Grid};
+use loschmidt_core::pairs::{PairPass, Sources, Targets, accumulate, separation, term_count};
+use loschmidt_core::points::{PointPass, visit};
+use loschmidt_core::values::Values;
 use loschmidt_core::{Arithmetic, Executor, Fault, FaultKind, Serial};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Fewest particles worth a task of their own: about 50 µs of work.
 const GRAIN: usize = 128;
@@ -53,79 +57,112 @@ impl Rayon {
     }
 }
 
-impl Executor for Rayon {
-    fn name(&self) -> &'static str {
-        "rayon"
-    }
-
-    fn sum<A, P, const D: usize, const READ: usize, const TERM: usize>(
+impl Rayon {
+    /// Calls `work` with every number below `count`, on all threads. Passed on as `dyn`: rayon's
+    /// machinery is then compiled once, and not for every pass.
+    fn for_each(
         &self,
-        pass: &P,
-        to: &Targets<'_, A, P::Word, D, READ>,
-        from: &Sources<'_, A, P::Word, D, READ>,
-        out: &mut [[P::Sum; TERM]],
-    ) -> Result<(), Fault>
-    where
-        A: Arithmetic,
-        P: PairPass<A, D, READ, TERM>,
-    {
-        self.for_each(out, |i, sum| {
-            let skip = to.same_set.then_some(i);
-            gather_listed(pass, &to.position[i], &to.read[i], from, skip, sum)
-                .map_err(|kind| Fault::new(kind, to.id.get(i)))
-        })
-    }
-
-    fn for_each<T: Send>(
-        &self,
-        items: &mut [T],
-        f: impl Fn(usize, &mut T) -> Result<(), Fault> + Sync,
+        count: usize,
+        work: &(dyn Fn(usize) -> Result<(), Fault> + Sync),
     ) -> Result<(), Fault> {
-        let run = || {
-            items
-                .par_iter_mut()
-                .with_min_len(GRAIN)
-                .enumerate()
-                .filter_map(|(i, item)| f(i, item).err())
-                .reduce_with(Fault::first)
-        };
-        self.pool.install(run).map_or(Ok(()), Err)
+        let results = (0..count).into_par_iter();
+        let fault = results
+            .filter_map(|n| work(n).err())
+            .reduce_with(Fault::first);
+        fault.map_or(Ok(()), Err)
     }
 
-    fn for_both<T: Send, U: Send>(
+    /// Calls `work` with every item, on all threads.
+    fn for_parts<T: Send>(
         &self,
-        a: &mut [T],
-        b: &mut [U],
-        f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
+        parts: Vec<T>,
+        work: impl Fn(T) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault> {
-        let run = || {
-            a.par_iter_mut()
-                .zip(b)
-                .with_min_len(GRAIN)
-                .enumerate()
-                .filter_map(|(i, (a, b))| f(i, a, b).err())
-                .reduce_with(Fault::first)
+        let count = parts.len();
+        let parts: Vec<_> = parts
+            .into_iter()
+            .map(|part| Mutex::new(Some(part)))
+            .collect();
+        let one = |n: usize| {
+            let part = parts[n]
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .take();
+            part.map_or(Ok(()), &work)
         };
-        self.pool.install(run).map_or(Ok(()), Err)
+        self.pool.install(|| self.for_each(count, &one))
     }
 }
 
+impl Executor for Rayon {
+    fn locate<A: Arithmetic, const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        particles: &mut Set<'_, A, D>,
+        cells: &mut Cells<'_>,
+        _: bool,
+    ) {
+        cells.sort(grid, particles.position());
+    }
+
+    fn points<A: Arithmetic, P: PointPass<A, D>, const D: usize>(
+        &self,
+        pass: &P,
+        set: &mut Set<'_, A, D>,
+    ) -> Result<(), Fault> {
+        let mut rest = set.operands(P::READ, P::WRITE);
+        let mut parts: Vec<Operands<'_, A::Word>> = Vec::new();
+        while !rest.is_empty() {
+            let many = rest.len().min(GRAIN);
+            let (first, others) = rest.split_at(many);
+            parts.push(first);
+            rest = others;
+        }
+        self.for_parts(parts, |mut part| visit(pass, &mut part))
+    }
+
+    fn sum<A: Arithmetic, P: PairPass<D>, const D: usize>(
+        &self,
+        pass: &P,
+        to: &Targets<'_, A, D>,
+        from: &Sources<'_, A, D>,
+        out: &mut [A::Word],
+    ) -> Result<(), Fault> {
+        let term = term_count::<P, D>();
+        let parts = out.chunks_mut(GRAIN * term).enumerate().collect();
+        self.for_parts(parts, |(n, out): (usize, &mut [A::Word])| {
+            let mut first: Option<Fault> = None;
+            for (k, out) in out.chunks_exact_mut(term).enumerate() {
+                let i = n * GRAIN + k;
+                let mut sum = P::Term::<A::Word>::from_fn(|k| out[k]);
+                let result = gather_listed(pass, to, i, from, &mut sum);
+                for (k, out) in out.iter_mut().enumerate() {
+                    *out = sum.get(k);
+                }
+                if let Err(kind) = result {
+                    let fault = Fault::new(kind, to.id[i]);
+                    first = Some(first.map_or(fault, |other| other.first(fault)));
+                }
+            }
+            first.map_or(Ok(()), Err)
+        })
+    }
+}
+
+impl Drive for Rayon {}
+
 /// The core's `gather` with the branches taken out of the search.
-fn gather_listed<A, P, const D: usize, const READ: usize, const TERM: usize>(
+fn gather_listed<A: Arithmetic, P: PairPass<D>, const D: usize>(
     pass: &P,
-    x_i: &[A::Length; D],
-    read_i: &[P::Word; READ],
-    from: &Sources<'_, A, P::Word, D, READ>,
-    skip: Option<usize>,
-    sum: &mut [P::Sum; TERM],
-) -> Result<(), FaultKind>
-where
-    A: Arithmetic,
-    P: PairPass<A, D, READ, TERM>,
-{
-    let read_i = read(read_i);
+    to: &Targets<'_, A, D>,
+    i: usize,
+    from: &Sources<'_, A, D>,
+    sum: &mut P::Term<A::Word>,
+) -> Result<(), FaultKind> {
+    let x_i = &to.position[i];
+    let read_i = read(to.read, i);
     let reach_squared = pass.reach_squared();
-    let skip = skip.map_or(u32::MAX, |i| i as u32);
+    let skip = if to.same_set { i as u32 } else { u32::MAX };
     let mut list = [0u32; LIST];
     let mut listed = 0;
     let mut neighbours = 0;
@@ -134,9 +171,9 @@ where
         neighbours += list.len();
         for &j in list {
             let (x_ij, r2) = separation::<A, D>(x_i, &from.position[j as usize]);
-            let read_j = read(&from.read[j as usize]);
+            let read_j = read(from.read, j as usize);
             let argument = pass.argument(r2);
-            if !accumulate(sum, pass.term(&x_ij, argument, &read_i, &read_j)) {
+            if !accumulate(sum, &pass.term(&x_ij, argument, &read_i, &read_j)) {
                 result = Err(FaultKind::TermRange);
             }
         }

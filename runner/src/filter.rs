@@ -30,7 +30,7 @@ fn shepard_in<const D: usize>(scene: &Scene, frame: &Frame) -> Vec<[f64; 3]> {
     let h = scene.support_radius();
     let fluid = frame.position.iter().zip(&frame.velocity);
     let mut sources: Vec<([f64; D], f64, [f64; 3])> = fluid
-        .zip(&frame.density)
+        .zip(frame.column("density").unwrap_or_default())
         .map(|((x, u), rho)| (first(x), frame.particle_mass / rho, *u))
         .collect();
     if scene.wall_model == WallModel::Dummy {
@@ -48,7 +48,7 @@ fn shepard_in<const D: usize>(scene: &Scene, frame: &Frame) -> Vec<[f64; 3]> {
     };
     cells.sort(&grid, &units);
     let cells = cells.into_view();
-    let kernel = WendlandC2::<f64>::new(D, h, 1.0);
+    let kernel = WendlandC2::new(D, h, 1.0);
     (0..frame.position.len())
         .into_par_iter()
         .map(|i| {

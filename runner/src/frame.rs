@@ -8,6 +8,7 @@
 //! Two clocks stand in it. [`Frame::time`] is physical: it rises from home to the turnaround and
 //! falls on the way back. [`Frame::elapsed`] rises along both legs, and is what orders frames.
 
+use loschmidt_core::model::Measure;
 use std::io;
 
 /// A synchronised state, the fluid in the order of its ids.
@@ -34,15 +35,30 @@ pub struct Frame {
     pub position: Vec<[f64; 3]>,
     /// Velocities of the fluid in m/s; z = 0 in 2D.
     pub velocity: Vec<[f64; 3]>,
-    /// Densities of the fluid in kg/m³.
-    pub density: Vec<f64>,
-    /// Pressures of the fluid in Pa.
-    pub pressure: Vec<f64>,
+    /// What else the model says of a particle: of water, its density and its pressure.
+    pub columns: Vec<FrameColumn>,
     /// Positions of the walls in m; z = 0 in 2D.
     pub wall_position: Vec<[f64; 3]>,
 }
 
+/// A number for each particle of the fluid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameColumn {
+    /// What it measures, and in which unit.
+    pub measure: Measure,
+    /// Its values.
+    pub values: Vec<f64>,
+}
+
 impl Frame {
+    /// The values of the column of this name, if the model has it.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let mut columns = self.columns.iter();
+        let column = columns.find(|column| column.measure.name == name)?;
+        Some(&column.values)
+    }
+
     /// Number of fluid and wall particles together.
     pub fn particles(&self) -> usize {
         self.id.len() + self.wall_position.len()
@@ -66,12 +82,13 @@ impl Frame {
             return Err(FrameError::Dimension(self.dimension));
         }
         let expected = self.id.len();
-        for (list, found) in [
+        let columns = self.columns.iter();
+        let columns = columns.map(|column| (column.measure.name, column.values.len()));
+        let vectors = [
             ("position", self.position.len()),
             ("velocity", self.velocity.len()),
-            ("density", self.density.len()),
-            ("pressure", self.pressure.len()),
-        ] {
+        ];
+        for (list, found) in vectors.into_iter().chain(columns) {
             if found != expected {
                 return Err(FrameError::Length {
                     list,

@@ -17,6 +17,7 @@
 #![deny(unsafe_code)]
 
 pub mod deck;
+mod drive;
 mod engine;
 mod executor;
 pub mod fast;
@@ -41,4 +42,4 @@ pub use player::{Arrow, Player};
 pub use points::Points;
 pub use run::{Outcome, Plan, Run, RunError};
 pub use saved::{ArithmeticKind, SavedState};
-pub use simulation::{BuildError, ModelKind, Options, Simulation};
+pub use simulation::{BuildError, Options, Simulation};

@@ -341,10 +341,10 @@ impl Player {
             &self.home.converted(present.arithmetic)
         };
         let d = present.dimension;
-        let astray = present.fields[0]
-            .1
+        let astray = present
+            .positions()
             .chunks(d)
-            .zip(home.fields[0].1.chunks(d))
+            .zip(home.positions().chunks(d))
             .filter(|(a, b)| a != b)
             .count();
         Return {

@@ -1,10 +1,11 @@
 //! What is drawn of a state: a third of a [`Frame`], for eyes that want many a second.
 //!
-//! Positions, speeds |v|, densities and pressures in SI units, each the frame's f64 rounded once to
+//! Positions, speeds |v| and the model's columns in SI units, each the frame's f64 rounded once to
 //! f32; the particles in the order in which they are stored, each with its id. Files are made of
 //! frames, pictures of points.
 
-use crate::frame::Frame;
+use crate::frame::{Frame, FrameColumn};
+use loschmidt_core::model::Measure;
 
 /// What is drawn of a synchronised state.
 ///
@@ -25,15 +26,30 @@ pub struct Points {
     pub position: [Vec<f32>; 3],
     /// Speeds of the fluid in m/s.
     pub speed: Vec<f32>,
-    /// Densities of the fluid in kg/m³.
-    pub density: Vec<f32>,
-    /// Pressures of the fluid in Pa.
-    pub pressure: Vec<f32>,
+    /// What else the model says of a particle.
+    pub columns: Vec<PointColumn>,
     /// Positions of the walls in m; z = 0 in 2D.
     pub wall_position: Vec<[f32; 3]>,
 }
 
+/// A number for each particle of the fluid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointColumn {
+    /// What it measures, and in which unit.
+    pub measure: Measure,
+    /// Its values.
+    pub values: Vec<f32>,
+}
+
 impl Points {
+    /// The values of the column of this name, if the model has it.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f32]> {
+        let mut columns = self.columns.iter();
+        let column = columns.find(|column| column.measure.name == name)?;
+        Some(&column.values)
+    }
+
     /// Number of particles of the fluid.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -55,36 +71,46 @@ impl Points {
         [x[place], y[place], z].map(f64::from)
     }
 
-    /// Room for so many particles of the fluid.
-    pub(crate) fn resize(&mut self, dimension: usize, particles: usize) {
+    /// Room for so many particles of the fluid, with these columns.
+    pub(crate) fn resize(&mut self, dimension: usize, particles: usize, columns: &[Measure]) {
         self.dimension = dimension;
         self.id.resize(particles, 0);
         for (axis, list) in self.position.iter_mut().enumerate() {
             list.resize(if axis < dimension { particles } else { 0 }, 0.0);
         }
-        for list in [&mut self.speed, &mut self.density, &mut self.pressure] {
-            list.resize(particles, 0.0);
+        self.speed.resize(particles, 0.0);
+        let same = self.columns.iter().map(|column| column.measure);
+        if !same.eq(columns.iter().copied()) {
+            let new = |&measure: &Measure| PointColumn {
+                measure,
+                values: Vec::new(),
+            };
+            self.columns = columns.iter().map(new).collect();
+        }
+        for column in &mut self.columns {
+            column.values.resize(particles, 0.0);
         }
     }
 
     /// The fluid's lists in parts of so many particles.
     pub(crate) fn parts(&mut self, size: usize) -> Vec<Part<'_>> {
         let mut axes = self.position.each_mut().map(|list| list.chunks_mut(size));
+        let columns = self.columns.iter_mut();
+        let mut columns: Vec<_> = columns
+            .map(|column| column.values.chunks_mut(size))
+            .collect();
         let ids = self.id.chunks_mut(size);
-        let values = self
-            .speed
-            .chunks_mut(size)
-            .zip(self.density.chunks_mut(size))
-            .zip(self.pressure.chunks_mut(size));
-        ids.zip(values)
+        ids.zip(self.speed.chunks_mut(size))
             .enumerate()
-            .map(|(n, (id, ((speed, density), pressure)))| Part {
+            .map(|(n, (id, speed))| Part {
                 first: n * size,
                 id,
                 position: axes.each_mut().map(|axis| axis.next().unwrap_or_default()),
                 speed,
-                density,
-                pressure,
+                columns: columns
+                    .iter_mut()
+                    .map(|column| column.next().unwrap_or_default())
+                    .collect(),
             })
             .collect()
     }
@@ -97,8 +123,7 @@ pub(crate) struct Part<'a> {
     pub id: &'a mut [u64],
     pub position: [&'a mut [f32]; 3],
     pub speed: &'a mut [f32],
-    pub density: &'a mut [f32],
-    pub pressure: &'a mut [f32],
+    pub columns: Vec<&'a mut [f32]>,
 }
 
 /// |v|, m/s.
@@ -109,7 +134,10 @@ pub(crate) fn speed(v: [f64; 3]) -> f32 {
 
 impl From<&Frame> for Points {
     fn from(frame: &Frame) -> Self {
-        let single = |list: &[f64]| list.iter().map(|&x| x as f32).collect();
+        let column = |column: &FrameColumn| PointColumn {
+            measure: column.measure,
+            values: column.values.iter().map(|&x| x as f32).collect(),
+        };
         let axis = |k: usize| match k < frame.dimension {
             true => frame.position.iter().map(|x| x[k] as f32).collect(),
             false => Vec::new(),
@@ -122,8 +150,7 @@ impl From<&Frame> for Points {
             id: frame.id.clone(),
             position: std::array::from_fn(axis),
             speed: frame.velocity.iter().map(|&v| speed(v)).collect(),
-            density: single(&frame.density),
-            pressure: single(&frame.pressure),
+            columns: frame.columns.iter().map(column).collect(),
             wall_position: frame
                 .wall_position
                 .iter()

@@ -5,6 +5,7 @@
 
 use crate::scene::InitialState;
 use loschmidt_core::Scale;
+use loschmidt_core::fields::{POSITION, VELOCITY};
 use serde::{Deserialize, Serialize};
 
 /// Which arithmetic the words belong to.
@@ -29,6 +30,17 @@ impl ArithmeticKind {
     }
 }
 
+/// One field of a saved state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SavedField {
+    /// As the model declares it.
+    pub name: String,
+    /// Whether it changes sign when time is turned.
+    pub odd: bool,
+    /// Component by component within each particle.
+    pub words: Vec<i64>,
+}
+
 /// The state of a run at a whole step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SavedState {
@@ -42,13 +54,12 @@ pub struct SavedState {
     pub step: u64,
     /// Ids, increasing.
     pub id: Vec<u64>,
-    /// Position, velocity and density field: name and words, component by component within each
-    /// particle.
-    pub fields: Vec<(String, Vec<i64>)>,
-    /// Positions of the walls.
-    pub wall_position: Vec<i64>,
-    /// Density field of the walls.
-    pub wall_density: Vec<i64>,
+    /// The fields of the model's state: position, velocity, and what else there is.
+    pub fields: Vec<SavedField>,
+    /// Number of wall particles.
+    pub walls: usize,
+    /// Those fields that walls have: position, and what else there is.
+    pub wall_fields: Vec<SavedField>,
 }
 
 impl SavedState {
@@ -57,12 +68,31 @@ impl SavedState {
     pub fn initial_state(&self) -> InitialState {
         let particles = 0..self.id.len();
         let quantum = self.scale.length_quantum();
-        let walls = self.wall_position.chunks_exact(self.dimension.max(1));
+        let walls = self.wall_positions().chunks_exact(self.dimension.max(1));
         InitialState {
             fluid: particles.clone().map(|n| self.position(n)).collect(),
             fluid_velocity: particles.map(|n| self.velocity(n)).collect(),
             wall: walls.map(|words| self.in_si(words, quantum)).collect(),
         }
+    }
+
+    /// Words of the walls' positions.
+    #[must_use]
+    pub fn wall_positions(&self) -> &[i64] {
+        let position = self.wall_fields.first();
+        position.map_or(&[], |field| &field.words)
+    }
+
+    /// The words of the positions, D for each particle.
+    #[must_use]
+    pub fn positions(&self) -> &[i64] {
+        &self.fields[POSITION].words
+    }
+
+    /// The words of the velocities, D for each particle.
+    #[must_use]
+    pub fn velocities(&self) -> &[i64] {
+        &self.fields[VELOCITY].words
     }
 
     /// The word of an arithmetic as a number of quanta.
@@ -76,18 +106,18 @@ impl SavedState {
     /// Position of the particle with the n-th id, m; unused components are zero.
     #[must_use]
     pub fn position(&self, n: usize) -> [f64; 3] {
-        self.vector(0, n, self.scale.length_quantum())
+        self.vector(POSITION, n, self.scale.length_quantum())
     }
 
     /// Velocity of the particle with the n-th id, m/s.
     #[must_use]
     pub fn velocity(&self, n: usize) -> [f64; 3] {
-        self.vector(1, n, self.scale.speed_quantum())
+        self.vector(VELOCITY, n, self.scale.speed_quantum())
     }
 
     fn vector(&self, field: usize, n: usize, quantum: f64) -> [f64; 3] {
         let d = self.dimension;
-        self.in_si(&self.fields[field].1[n * d..(n + 1) * d], quantum)
+        self.in_si(&self.fields[field].words[n * d..(n + 1) * d], quantum)
     }
 
     fn in_si(&self, words: &[i64], quantum: f64) -> [f64; 3] {
@@ -117,25 +147,23 @@ impl SavedState {
         if to == self.arithmetic {
             return self.clone();
         }
-        let convert = |words: &[i64]| {
-            words
-                .iter()
-                .map(|&w| match to {
-                    ArithmeticKind::Float => (w as f64).to_bits() as i64,
-                    ArithmeticKind::Fixed => self.quanta(w).round_ties_even() as i64,
-                })
-                .collect()
+        let convert = |&w: &i64| match to {
+            ArithmeticKind::Float => (w as f64).to_bits() as i64,
+            ArithmeticKind::Fixed => self.quanta(w).round_ties_even() as i64,
+        };
+        let convert = |fields: &[SavedField]| {
+            let convert = |field: &SavedField| SavedField {
+                words: field.words.iter().map(convert).collect(),
+                ..field.clone()
+            };
+            fields.iter().map(convert).collect()
         };
         Self {
             arithmetic: to,
-            fields: self
-                .fields
-                .iter()
-                .map(|(name, words)| (name.clone(), convert(words)))
-                .collect(),
-            wall_position: convert(&self.wall_position),
-            wall_density: convert(&self.wall_density),
-            ..self.clone()
+            fields: convert(&self.fields),
+            wall_fields: convert(&self.wall_fields),
+            id: self.id.clone(),
+            ..*self
         }
     }
 }

@@ -2,12 +2,16 @@
 
 use crate::isc;
 use crate::player::Player;
+use crate::saved::ArithmeticKind;
 use crate::scene::{self, InitialState, Point, Scene};
-use crate::simulation::{BuildError, ModelKind, Options, Simulation, build};
+use crate::simulation::{BuildError, Options, Simulation, simulate};
 use crate::storage;
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
-use loschmidt_core::model::{AntiClump, Central, DensityCorrection, Gravity, StateEquation, Wall};
-use loschmidt_core::{Fault, Parameters, Scale};
+use loschmidt_core::model::{Measure, Model};
+use loschmidt_core::schemes::wcsph::{
+    AntiClump, Central, DensityCorrection, Filter, Gravity, StateEquation, Wall,
+};
+use loschmidt_core::{Arithmetic, Fault, Fixed, Float, Parameters, Scale, Standard, Symplectic};
 
 /// Sets up the scene's simulation at step 0.
 ///
@@ -18,14 +22,42 @@ pub fn simulation(
     initial: &InitialState,
     options: &Options,
 ) -> Result<Box<dyn Simulation>, BuildError> {
-    let model = match scene.model {
-        scene::Model::Symplectic => ModelKind::Symplectic,
-        scene::Model::Standard => ModelKind::Standard,
-        scene::Model::Filtered => ModelKind::Filtered,
-    };
-    match scene.dimension {
-        scene::Dimension::Two => build::<2>(parameters(scene, initial), model, initial, options),
-        scene::Dimension::Three => build::<3>(parameters(scene, initial), model, initial, options),
+    match (scene.dimension, options.arithmetic) {
+        (scene::Dimension::Two, ArithmeticKind::Fixed) => {
+            build::<Fixed, 2>(scene, initial, options)
+        }
+        (scene::Dimension::Two, ArithmeticKind::Float) => {
+            build::<Float, 2>(scene, initial, options)
+        }
+        (scene::Dimension::Three, ArithmeticKind::Fixed) => {
+            build::<Fixed, 3>(scene, initial, options)
+        }
+        (scene::Dimension::Three, ArithmeticKind::Float) => {
+            build::<Float, 3>(scene, initial, options)
+        }
+    }
+}
+
+fn build<A: Arithmetic, const D: usize>(
+    scene: &Scene,
+    initial: &InitialState,
+    options: &Options,
+) -> Result<Box<dyn Simulation>, BuildError> {
+    let p = parameters::<D>(scene, initial);
+    match scene.model {
+        scene::Model::Symplectic => simulate(Symplectic::<A, D>::new(p)?, initial, options),
+        scene::Model::Standard => simulate(Standard::<A, D>::new(p)?, initial, options),
+        scene::Model::Filtered => simulate(Filter::<A, D>::filtered(p)?, initial, options),
+    }
+}
+
+/// What is recorded of a particle of the scene besides position and velocity.
+#[must_use]
+pub fn columns(scene: &Scene) -> &'static [Measure] {
+    match scene.model {
+        scene::Model::Symplectic | scene::Model::Standard | scene::Model::Filtered => {
+            <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS
+        }
     }
 }
 
@@ -152,12 +184,14 @@ pub fn estimated_bytes(scene: &Scene) -> u64 {
         scene::Dimension::Three => 3,
     };
     let buckets = 2 * max_buckets((fluid + walls) as usize) as u64;
-    let system = storage::bytes(dimension, fluid, walls, buckets);
+    let fields = <Symplectic<Fixed, 2> as Model<Fixed, 2>>::FIELDS;
+    let system = storage::bytes(fields, dimension, fluid, walls, buckets);
     let initial = 48 * fluid + 24 * walls;
-    let saved = 3 * 8 * ((2 * dimension + 2) * fluid + (dimension + 1) * walls);
+    let axes = dimension as u64;
+    let saved = 3 * 8 * ((2 * axes + 2) * fluid + (axes + 1) * walls);
     let frame = 72 * fluid + 24 * walls;
     let correction = match scene.density_correction {
-        scene::DensityCorrection::Isc => isc::estimated_bytes(dimension, scene.support, fluid),
+        scene::DensityCorrection::Isc => isc::estimated_bytes(axes, scene.support, fluid),
         scene::DensityCorrection::Constant | scene::DensityCorrection::None => 0,
     };
     // What the correction takes is given back before the rest is taken.

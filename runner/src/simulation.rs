@@ -7,10 +7,8 @@ use crate::frame::Frame;
 use crate::points::Points;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::InitialState;
-use loschmidt_core::{
-    Diagnostics, Digest, Fault, Filtered, Fixed, Float, Parameters, Reversibility, Standard,
-    Symplectic,
-};
+use loschmidt_core::model::Model;
+use loschmidt_core::{Arithmetic, Diagnostics, Digest, Fault, Reversibility};
 use std::num::NonZeroUsize;
 use thiserror::Error;
 
@@ -50,17 +48,6 @@ impl Options {
             ExecutorKind::Rayon | ExecutorKind::Fast => self.threads.get(),
         }
     }
-}
-
-/// Which scheme.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ModelKind {
-    /// [`Symplectic`].
-    Symplectic,
-    /// [`Standard`].
-    Standard,
-    /// [`Filtered`].
-    Filtered,
 }
 
 /// Why a simulation could not be set up.
@@ -135,37 +122,14 @@ pub trait Simulation: Send {
     fn flip_last_bit(&mut self, id: u64);
 }
 
-/// Sets up a simulation at step 0, its density constants computed.
+/// Sets up a simulation of any model at step 0: what the model computes once is computed.
 ///
 /// # Errors
 /// [`BuildError`].
-pub fn build<const D: usize>(
-    parameters: Parameters<D>,
-    model: ModelKind,
+pub fn simulate<A: Arithmetic, M: Model<A, D>, const D: usize>(
+    model: M,
     particles: &InitialState,
     options: &Options,
 ) -> Result<Box<dyn Simulation>, BuildError> {
-    type F = Fixed<f64>;
-    use ArithmeticKind as A;
-    use ModelKind as M;
-    Ok(match (model, options.arithmetic) {
-        (M::Symplectic, A::Fixed) => Box::new(Engine::<F, Symplectic<_, D>, D>::new(
-            parameters, particles, options,
-        )?),
-        (M::Symplectic, A::Float) => Box::new(Engine::<Float, Symplectic<_, D>, D>::new(
-            parameters, particles, options,
-        )?),
-        (M::Standard, A::Fixed) => Box::new(Engine::<F, Standard<_, D>, D>::new(
-            parameters, particles, options,
-        )?),
-        (M::Standard, A::Float) => Box::new(Engine::<Float, Standard<_, D>, D>::new(
-            parameters, particles, options,
-        )?),
-        (M::Filtered, A::Fixed) => Box::new(Engine::<F, Filtered<_, D>, D>::new(
-            parameters, particles, options,
-        )?),
-        (M::Filtered, A::Float) => Box::new(Engine::<Float, Filtered<_, D>, D>::new(
-            parameters, particles, options,
-        )?),
-    })
+    Ok(Box::new(Engine::<A, M, D>::new(model, particles, options)?))
 }

@@ -1,116 +1,102 @@
 //! A system in vectors.
 
-use loschmidt_core::neighbours::Cells;
-use loschmidt_core::number::{Quantity, Real};
-use loschmidt_core::state::DensityRole;
-use loschmidt_core::{Arithmetic, Forces, Progress, Scratch, State, System, Walls};
+use crate::drive::Held;
+use loschmidt_core::fields::{Field, Set, Side, words_each};
+use loschmidt_core::model::Model;
+use loschmidt_core::neighbours::{Cells, Grid};
+use loschmidt_core::number::Quantity;
+use loschmidt_core::{Arithmetic, Clock, System};
 
 /// Owns what the core borrows.
 #[derive(Debug)]
 pub(crate) struct Storage<A: Arithmetic, const D: usize> {
+    fields: &'static [Field],
+    grids: [Grid<D>; 2],
     id: Vec<u64>,
-    position: Vec<[A::Length; D]>,
-    velocity: Vec<[A::Speed; D]>,
-    density: Vec<A::Density>,
-    density_role: DensityRole,
-    wall_position: Vec<[A::Length; D]>,
-    wall_velocity: Vec<[A::Speed; D]>,
-    wall_density: Vec<A::Density>,
-    pub progress: Progress,
-    scratch: OwnedScratch<A, D>,
-}
-
-#[derive(Debug)]
-struct OwnedScratch<A: Arithmetic, const D: usize> {
-    density: Vec<A::Density>,
-    pressure: Vec<A::Real>,
-    impulse: Vec<[A::Speed; D]>,
+    wall_id: Vec<u64>,
+    particles: Vec<A::Word>,
+    walls: Vec<A::Word>,
     start: Vec<u32>,
     order: Vec<u32>,
     wall_start: Vec<u32>,
     wall_order: Vec<u32>,
-    wall_density: Vec<A::Density>,
-    wall_density_fixed: Vec<A::Density>,
-    wall_pressure: Vec<A::Real>,
+    pub clock: Clock,
+    pub held: Held,
 }
 
 impl<A: Arithmetic, const D: usize> Storage<A, D> {
-    /// Zeroed memory for `id.len()` fluid particles with these ids and for `walls` wall particles.
-    pub fn new(
-        id: Vec<u64>,
-        walls: usize,
-        density_role: DensityRole,
-        forces: &Forces<A, D>,
-    ) -> Self {
+    /// Zeroed memory for `id.len()` particles with these ids and for `walls` wall particles.
+    pub fn new<M: Model<A, D>>(model: &M, id: Vec<u64>, walls: usize) -> Self {
         let n = id.len();
-        let zero = A::Real::from_f64(0.0);
+        let grids = model.grids().map(Clone::clone);
+        let words = |side, count| vec![A::Word::ZERO; count * words_each(M::FIELDS, side, D)];
         Self {
+            fields: M::FIELDS,
             id,
-            position: vec![[A::Length::ZERO; D]; n],
-            velocity: vec![[A::Speed::ZERO; D]; n],
-            density: vec![A::Density::ZERO; n],
-            density_role,
-            wall_position: vec![[A::Length::ZERO; D]; walls],
-            wall_velocity: vec![[A::Speed::ZERO; D]; walls],
-            wall_density: vec![A::Density::ZERO; walls],
-            progress: Progress::default(),
-            scratch: OwnedScratch {
-                density: vec![A::Density::ZERO; n],
-                pressure: vec![zero; n],
-                impulse: vec![[A::Speed::ZERO; D]; n],
-                start: vec![0; forces.grid().buckets() + 1],
-                order: vec![0; n],
-                wall_start: vec![0; forces.wall_grid().buckets() + 1],
-                wall_order: vec![0; walls],
-                wall_density: vec![A::Density::ZERO; walls],
-                wall_density_fixed: vec![A::Density::ZERO; walls],
-                wall_pressure: vec![zero; walls],
-            },
+            wall_id: vec![0; walls],
+            particles: words(Side::Particles, n),
+            walls: words(Side::Walls, walls),
+            start: vec![0; grids[0].buckets() + 1],
+            order: vec![0; n],
+            wall_start: vec![0; grids[1].buckets() + 1],
+            wall_order: vec![0; walls],
+            grids,
+            clock: Clock::default(),
+            held: Held::default(),
         }
+    }
+
+    /// The borrowed view that the core works on, and what its scratch holds.
+    pub fn parts(&mut self) -> (System<'_, A, D>, &mut Held) {
+        let (n, w) = (self.id.len(), self.wall_id.len());
+        let of_particles = Set::over(
+            &mut self.id,
+            &mut self.particles,
+            n,
+            self.fields,
+            Side::Particles,
+        );
+        let of_walls = Set::over(
+            &mut self.wall_id,
+            &mut self.walls,
+            w,
+            self.fields,
+            Side::Walls,
+        );
+        let [grid, wall_grid] = &self.grids;
+        let system = System {
+            // `new` has made as much memory as these fields take.
+            particles: of_particles.unwrap_or_else(|error| unreachable!("{error}")),
+            walls: of_walls.unwrap_or_else(|error| unreachable!("{error}")),
+            grids: [grid, wall_grid],
+            cells: Cells {
+                start: &mut self.start,
+                order: &mut self.order,
+            },
+            wall_cells: Cells {
+                start: &mut self.wall_start,
+                order: &mut self.wall_order,
+            },
+            clock: &mut self.clock,
+        };
+        (system, &mut self.held)
     }
 
     /// The borrowed view that the core works on.
     pub fn system(&mut self) -> System<'_, A, D> {
-        let scratch = &mut self.scratch;
-        System {
-            state: State {
-                id: &mut self.id,
-                position: &mut self.position,
-                velocity: &mut self.velocity,
-                density: &mut self.density,
-                density_role: self.density_role,
-            },
-            walls: Walls {
-                position: &mut self.wall_position,
-                velocity: &mut self.wall_velocity,
-                density: &mut self.wall_density,
-            },
-            scratch: Scratch {
-                density: &mut scratch.density,
-                pressure: &mut scratch.pressure,
-                impulse: &mut scratch.impulse,
-                cells: Cells {
-                    start: &mut scratch.start,
-                    order: &mut scratch.order,
-                },
-                wall_cells: Cells {
-                    start: &mut scratch.wall_start,
-                    order: &mut scratch.wall_order,
-                },
-                wall_density: &mut scratch.wall_density,
-                wall_density_fixed: &mut scratch.wall_density_fixed,
-                wall_pressure: &mut scratch.wall_pressure,
-            },
-            progress: &mut self.progress,
-        }
+        self.parts().0
     }
 }
 
 /// Bytes that [`Storage`] takes for so many particles and buckets.
-pub(crate) fn bytes(dimension: u64, fluid: u64, walls: u64, buckets: u64) -> u64 {
-    // Per fluid particle: id, position, velocity, density; density, pressure, impulse, order.
-    let per_fluid = 8 * (1 + dimension + dimension + 1) + 8 * (1 + 1 + dimension) + 4;
-    // Per wall particle: position, velocity, density; two densities, pressure, order.
-    let per_wall = 8 * (dimension + dimension + 1) + 8 * 3 + 4;
-    fluid * per_fluid + walls * per_wall + 4 * (buckets + 2)
+pub(crate) fn bytes(
+    fields: &[Field],
+    dimension: usize,
+    particles: u64,
+    walls: u64,
+    buckets: u64,
+) -> u64 {
+    // Beside its words a particle has an id, and a place in the order of the cells.
+    let each = |side| 8 * (1 + words_each(fields, side, dimension) as u64) + 4;
+    particles * each(Side::Particles) + walls * each(Side::Walls) + 4 * (buckets + 2)
 }

@@ -128,10 +128,10 @@ fn energies(progress: &Progress<'_>) -> String {
     format!(
         "t {:.4} s  J: kin {:.0} int {:.0} grav {:.0} wall {:.0} error {:+.1e}  S {:.3}",
         row.time_s,
-        row.kinetic,
-        row.internal,
-        row.gravitational,
-        row.wall,
+        row.energy("kinetic"),
+        row.energy("internal"),
+        row.energy("gravitational"),
+        row.energy("wall"),
         row.total - home.total,
         row.entropy
     )

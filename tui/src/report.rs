@@ -25,10 +25,12 @@ pub fn table(outcome: &Outcome, rows: &[Row]) -> String {
         table.add_row(std::iter::once(name.to_owned()).chain(cells));
     };
     line("time", &|row| format!("{:.4} s", row.time_s));
-    line("kinetic energy", &|row| joule(row.kinetic));
-    line("internal energy", &|row| joule(row.internal));
-    line("gravitational energy", &|row| joule(row.gravitational));
-    line("wall energy", &|row| joule(row.wall));
+    line("kinetic energy", &|row| joule(row.energy("kinetic")));
+    line("internal energy", &|row| joule(row.energy("internal")));
+    line("gravitational energy", &|row| {
+        joule(row.energy("gravitational"))
+    });
+    line("wall energy", &|row| joule(row.energy("wall")));
     line("total energy", &|row| joule(row.total));
     line("entropy", &|row| format!("{:.4}", row.entropy));
     line("  in equilibrium", &|row| {

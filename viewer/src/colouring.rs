@@ -129,8 +129,10 @@ impl Colouring {
         };
         match self {
             Self::Speed => points.speed[place].into(),
-            Self::Density => points.density[place].into(),
-            Self::Pressure => points.pressure[place].into(),
+            Self::Density | Self::Pressure => {
+                let column = points.column(self.name());
+                column.map_or(0.0, |values| values[place].into())
+            }
             Self::InitialHeight => at_home(place)[home.up],
             Self::Displacement => {
                 // At home it is 0: rounded as the points are.
@@ -204,9 +206,10 @@ impl<'a> Painter<'a> {
     #[inline(always)]
     pub fn colours(&self, points: &Points, home: &Home, first: usize, colours: &mut [Rgb]) {
         let list = match self.colouring {
-            Colouring::Speed => &points.speed,
-            Colouring::Density => &points.density,
-            Colouring::Pressure => &points.pressure,
+            Colouring::Speed => &points.speed[..],
+            Colouring::Density | Colouring::Pressure => {
+                points.column(self.colouring.name()).unwrap_or_default()
+            }
             _ => {
                 for (k, colour) in colours.iter_mut().enumerate() {
                     *colour = self.colour(points, home, first + k);
@@ -214,7 +217,10 @@ impl<'a> Painter<'a> {
                 return;
             }
         };
-        for (colour, &value) in colours.iter_mut().zip(&list[first..]) {
+        for (colour, &value) in colours
+            .iter_mut()
+            .zip(list.get(first..).unwrap_or_default())
+        {
             *colour = self.of(value.into());
         }
     }

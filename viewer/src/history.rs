@@ -14,36 +14,30 @@ pub struct Point {
     pub way_back: bool,
     /// Kinetic energy, J (per m of depth in 2D, as the others).
     pub kinetic: f64,
-    /// Internal energy, J.
-    pub internal: f64,
-    /// Gravitational energy, J.
-    pub gravitational: f64,
-    /// Energy of the walls, J.
-    pub wall: f64,
+    /// Gravitational energy, J; of a model without gravity, all energies but the kinetic one.
+    pub potential: f64,
+    /// The sum of the energies, J.
+    pub total: f64,
     /// Reduced Boltzmann entropy.
     pub entropy: f64,
     /// Its equilibrium value for the kinetic energy; `None` at rest.
     pub equilibrium: Option<f64>,
 }
 
-impl Point {
-    /// The sum of the energies, J.
-    #[must_use]
-    pub fn total(&self) -> f64 {
-        self.kinetic + self.internal + self.gravitational + self.wall
-    }
-}
-
 impl From<&Row> for Point {
     fn from(row: &Row) -> Self {
+        let kinetic = row.energy("kinetic");
         Self {
             step: row.step,
             time: row.time_s,
             way_back: row.leg == 2,
-            kinetic: row.kinetic,
-            internal: row.internal,
-            gravitational: row.gravitational,
-            wall: row.wall,
+            kinetic,
+            potential: if row.has_energy("gravitational") {
+                row.energy("gravitational")
+            } else {
+                row.total - kinetic
+            },
+            total: row.total,
             entropy: row.entropy,
             equilibrium: row.equilibrium_entropy_of_energy,
         }

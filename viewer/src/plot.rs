@@ -220,11 +220,11 @@ pub fn energy(raster: &mut Pixels<'_>, rect: Rect, history: &History, theme: &Th
     let points = history.points();
     let largest = points
         .iter()
-        .flat_map(|p| [p.kinetic, p.gravitational, p.total()])
+        .flat_map(|p| [p.kinetic, p.potential, p.total])
         .fold(0.0, f64::max);
     let lowest = points
         .iter()
-        .flat_map(|p| [p.gravitational, p.total()])
+        .flat_map(|p| [p.potential, p.total])
         .fold(0.0, f64::min);
     let curve = |name, colour, value| Curve {
         name,
@@ -233,13 +233,13 @@ pub fn energy(raster: &mut Pixels<'_>, rect: Rect, history: &History, theme: &Th
         value,
         reference: false,
     };
-    let total = |p: &Point| Some(p.total());
+    let total = |p: &Point| Some(p.total);
     let kinetic = |p: &Point| Some(p.kinetic);
-    let gravitational = |p: &Point| Some(p.gravitational);
-    let lifts = points.iter().any(|p| p.gravitational != 0.0);
+    let potential = |p: &Point| Some(p.potential);
+    let lifts = points.iter().any(|p| p.potential != 0.0);
     let mut curves = vec![curve("kinetic", theme.forward, &kinetic)];
     if lifts {
-        curves.push(curve("potential", theme.second, &gravitational));
+        curves.push(curve("potential", theme.second, &potential));
     }
     curves.push(curve("total", theme.faint, &total));
     let margin = 0.08 * (largest - lowest).max(f64::MIN_POSITIVE);

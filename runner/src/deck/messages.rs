@@ -7,7 +7,7 @@ use crate::run::Row;
 use crate::saved::ArithmeticKind;
 use crate::scene::Scene;
 use crate::simulation::{BuildError, Options};
-use loschmidt_core::diagnostics::SpeedHistogram;
+use loschmidt_core::observe::SpeedHistogram;
 use loschmidt_core::{Digest, Fault, Reversibility};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

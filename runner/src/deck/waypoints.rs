@@ -67,8 +67,8 @@ fn marks(state: &SavedState, arrow: Arrow) -> Vec<u32> {
         ArithmeticKind::Fixed => word,
         ArithmeticKind::Float => f64::from_bits(word as u64).round_ties_even() as i64,
     };
-    let position = state.fields[0].1.par_chunks(d);
-    let velocity = state.fields[1].1.par_chunks(d);
+    let position = state.positions().par_chunks(d);
+    let velocity = state.velocities().par_chunks(d);
     position
         .zip(velocity)
         .with_min_len(PART)

@@ -6,8 +6,7 @@
 //! what it adds here is the conversion to integers in one instruction, and twice the registers.
 //! The baseline is plain arrays, which the compiler turns into pairs of SSE2.
 
-use loschmidt_core::number::{Lanes, Real};
-use std::marker::PhantomData;
+use loschmidt_core::number::Lanes;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Particles in a row.
@@ -45,6 +44,8 @@ pub(super) trait Quad: Copy + Send + Sync {
     fn sqrt(self, a: Self::R) -> Self::R;
     /// x where x > 0, else 0 (also for a NaN).
     fn positive_part(self, a: Self::R) -> Self::R;
+    /// Lanes of a where that of x is below that of the limit, else 0.
+    fn where_below(self, a: Self::R, x: Self::R, limit: Self::R) -> Self::R;
     /// The nearest integers, ties to even, for magnitudes below 2^51.
     fn round(self, a: Self::R) -> Self::I;
     fn plus(self, a: Self::I, b: Self::I) -> Self::I;
@@ -115,6 +116,11 @@ impl Quad for Plain {
     #[inline(always)]
     fn positive_part(self, a: Self::R) -> Self::R {
         lanewise!(a, a, |a, _| if a > 0.0 { a } else { 0.0 })
+    }
+    #[inline(always)]
+    fn where_below(self, a: Self::R, x: Self::R, limit: Self::R) -> Self::R {
+        let keep = lanewise!(x, limit, |x, limit| x < limit);
+        lanewise!(a, keep, |a, keep| if keep { a } else { 0.0 })
     }
     #[inline(always)]
     fn round(self, a: Self::R) -> Self::I {
@@ -188,6 +194,14 @@ macro_rules! quad_of_avx {
                 self.max_f64x4(a, self.splat_f64x4(0.0))
             }
             #[inline(always)]
+            fn where_below(self, a: Self::R, x: Self::R, limit: Self::R) -> Self::R {
+                const LESS: i32 = std::arch::x86_64::_CMP_LT_OQ;
+                let keep = self
+                    .avx
+                    ._mm256_cmp_pd::<LESS>(pulp::cast(x), pulp::cast(limit));
+                pulp::cast(self.avx._mm256_and_pd(pulp::cast(a), keep))
+            }
+            #[inline(always)]
             fn round(self, a: Self::R) -> Self::I {
                 let ($simd, $a) = (self, a);
                 $round
@@ -224,28 +238,23 @@ quad_of_avx!(pulp::x86::V4, |simd, a| {
     pulp::cast(simd.avx512dq._mm256_cvtpd_epi64(pulp::cast(a)))
 });
 
-/// Four reals of type R: what a pair term is evaluated in.
+/// Four doubles with the instructions that work on them: what a pair term is evaluated in.
 #[derive(Clone, Copy)]
-pub(super) struct Pack<R, Q: Quad> {
+pub(super) struct Pack<Q: Quad> {
     pub simd: Q,
     pub row: Q::R,
-    pub real: PhantomData<R>,
 }
 
-impl<R, Q: Quad> Pack<R, Q> {
+impl<Q: Quad> Pack<Q> {
     #[inline(always)]
     pub fn new(simd: Q, row: Q::R) -> Self {
-        Self {
-            simd,
-            row,
-            real: PhantomData,
-        }
+        Self { simd, row }
     }
 }
 
 macro_rules! operator {
     ($trait:ident, $method:ident) => {
-        impl<R, Q: Quad> $trait for Pack<R, Q> {
+        impl<Q: Quad> $trait for Pack<Q> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
@@ -259,10 +268,10 @@ operator!(Sub, sub);
 operator!(Mul, mul);
 operator!(Div, div);
 
-impl<R: Real, Q: Quad> Lanes<R> for Pack<R, Q> {
+impl<Q: Quad> Lanes for Pack<Q> {
     #[inline(always)]
-    fn splat(self, value: R) -> Self {
-        Self::new(self.simd, self.simd.splat(value.to_f64()))
+    fn splat(self, value: f64) -> Self {
+        Self::new(self.simd, self.simd.splat(value))
     }
     #[inline(always)]
     fn root(self) -> Self {
@@ -271,5 +280,9 @@ impl<R: Real, Q: Quad> Lanes<R> for Pack<R, Q> {
     #[inline(always)]
     fn positive_part(self) -> Self {
         Self::new(self.simd, self.simd.positive_part(self.row))
+    }
+    #[inline(always)]
+    fn where_below(self, x: Self, limit: Self) -> Self {
+        Self::new(self.simd, self.simd.where_below(self.row, x.row, limit.row))
     }
 }

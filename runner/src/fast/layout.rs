@@ -20,8 +20,8 @@ use super::lanes::{Quad, ROW, Reals};
 use super::meets::Meets;
 use super::sweep::Sums;
 use loschmidt_core::Arithmetic;
+use loschmidt_core::fields::Set;
 use loschmidt_core::number::Quantity;
-use loschmidt_core::state::State;
 use std::ops::Range;
 
 /// How many times a layout is made in the same box.
@@ -109,17 +109,17 @@ impl Layout {
         self.located == key(position)
     }
 
-    /// Brings the layout up to date with the state, and the storage order of the state up to date with
-    /// the layout.
+    /// Brings the layout up to date with the particles, and their storage order up to date with the
+    /// layout.
     pub fn update<A: Arithmetic, const D: usize>(
         &mut self,
         reach: f64,
-        state: &mut State<'_, A, D>,
+        particles: &mut Set<'_, A, D>,
         crew: Crew,
     ) {
-        let same = self.is_of(state.position) && reach == self.reach;
-        if !(same && self.follow::<A, D>(state.position, crew)) {
-            self.make(reach, state, crew);
+        let same = self.is_of(particles.position()) && reach == self.reach;
+        if !(same && self.follow::<A, D>(particles.position(), crew)) {
+            self.make(reach, particles, crew);
         }
     }
 
@@ -148,21 +148,21 @@ impl Layout {
     fn make<A: Arithmetic, const D: usize>(
         &mut self,
         reach: f64,
-        state: &mut State<'_, A, D>,
+        particles: &mut Set<'_, A, D>,
         crew: Crew,
     ) {
-        if !self.is_of(state.position) || reach != self.reach || self.box_for == 0 {
-            self.cover::<A, D>(reach, state.position);
+        if !self.is_of(particles.position()) || reach != self.reach || self.box_for == 0 {
+            self.cover::<A, D>(reach, particles.position());
             self.box_for = BOX_LASTS;
         }
         self.box_for -= 1;
-        self.sort::<A, D>(state);
+        self.sort::<A, D>(particles);
         self.divide::<D>(crew.threads);
-        self.fill::<A, D>(state.position);
+        self.fill::<A, D>(particles.position());
         self.list_meetings::<D>(crew);
         self.travelled = 0.0;
         self.version += 1;
-        self.located = key(state.position);
+        self.located = key(particles.position());
     }
 
     /// The strip that holds x.
@@ -229,15 +229,16 @@ impl Layout {
     }
 
     /// Those of the sums, one for each part, to which this strip belongs.
-    pub fn contributors<'a, const TERM: usize>(
+    pub fn contributors<'a>(
         &self,
+        components: usize,
         sums: &[&'a Sums],
         strip: &Strip,
     ) -> Vec<&'a Sums> {
         let row = strip.slot / ROW;
         let covers = |sums: &&&Sums| {
             row.checked_sub(sums.first_row)
-                .is_some_and(|row| row * TERM < sums.rows.len())
+                .is_some_and(|row| row * components < sums.rows.len())
         };
         sums.iter().filter(covers).copied().collect()
     }
@@ -253,10 +254,11 @@ impl Layout {
         self.parts.iter().map(split).collect()
     }
 
-    /// Splits something with one item a particle among the parts.
-    pub fn split_places<'a, T>(&self, mut items: &'a mut [T]) -> Vec<&'a mut [T]> {
+    /// Splits something with `each` items a particle among the parts.
+    pub fn split_places<'a, T>(&self, mut items: &'a mut [T], each: usize) -> Vec<&'a mut [T]> {
         let split = |part| {
-            let (first, rest) = std::mem::take(&mut items).split_at_mut(self.places_of(part).len());
+            let (first, rest) =
+                std::mem::take(&mut items).split_at_mut(self.places_of(part).len() * each);
             items = rest;
             first
         };
@@ -364,7 +366,7 @@ impl<A: Arithmetic, const D: usize> Work for Following<'_, A, D> {
             for (row, places) in rows.chunks_exact_mut(D).zip(whole) {
                 for (d, row) in row.iter_mut().enumerate() {
                     for l in 0..ROW {
-                        let new: f64 = places[l][d].quanta();
+                        let new = places[l][d].quanta();
                         let moved = (new - row.0[l]).abs();
                         largest[l] = if moved > largest[l] {
                             moved
@@ -377,7 +379,7 @@ impl<A: Arithmetic, const D: usize> Work for Following<'_, A, D> {
             }
             for (l, place) in rest.iter().enumerate() {
                 for (row, x) in last.iter_mut().zip(place) {
-                    let new: f64 = x.quanta();
+                    let new = x.quanta();
                     largest[l] = largest[l].max((new - row.0[l]).abs());
                     row.0[l] = new;
                 }

@@ -6,8 +6,8 @@ use super::layout::{Crew, Layout, Strip};
 use super::meets::{Meeting, Meets};
 use loschmidt_core::Arithmetic;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
+use loschmidt_core::fields::{Role, Set};
 use loschmidt_core::number::Quantity;
-use loschmidt_core::state::State;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -56,15 +56,15 @@ impl Layout {
         self.far = ((reach + self.skin) * self.inverse_cell * 1.000_001) as usize + 1;
     }
 
-    /// Sorts the state into cells, strip after strip.
-    pub(super) fn sort<A: Arithmetic, const D: usize>(&mut self, state: &mut State<'_, A, D>) {
+    /// Sorts the particles into cells, strip after strip.
+    pub(super) fn sort<A: Arithmetic, const D: usize>(&mut self, particles: &mut Set<'_, A, D>) {
         let mut keys = std::mem::take(&mut self.keys);
-        keys.resize(state.len(), 0);
+        keys.resize(particles.len(), 0);
         keys.par_iter_mut()
             .with_min_len(GRAIN)
-            .zip(&*state.position)
+            .zip(particles.position())
             .for_each(|(key, x)| {
-                let x = x.map(Quantity::quanta::<f64>);
+                let x = x.map(Quantity::quanta);
                 *key = (self.strip_of(&x) * self.columns + self.column_of(x[0])) as u32;
             });
         let strips = self.count[0] * self.count[1];
@@ -80,7 +80,7 @@ impl Layout {
             end += *start;
             *start = end;
         }
-        self.order.resize(state.len(), 0);
+        self.order.resize(particles.len(), 0);
         let mut sorted = true;
         for (place, &key) in keys.iter().enumerate().rev() {
             let new = &mut self.cell_start[key as usize];
@@ -90,7 +90,7 @@ impl Layout {
         }
         self.keys = keys;
         if !sorted {
-            reorder(state, &self.order);
+            reorder(particles, &self.order);
         }
         self.number_slots(strips);
         self.most_candidates = if self.can_be_listed::<D>() {
@@ -275,23 +275,37 @@ impl<const D: usize> Work for Listing<'_, D> {
     }
 }
 
-/// Puts into every place what was in the place that `order` names.
-fn reorder<A: Arithmetic, const D: usize>(state: &mut State<'_, A, D>, order: &[u32]) {
-    fn one<T: Copy + Send + Sync>(items: &mut [T], order: &[u32]) {
-        let sorted: Vec<T> = order.iter().map(|&place| items[place as usize]).collect();
+/// Puts into every place what was in the place that `order` names: ids, and every field of the state.
+/// Scratch is of no use afterwards, so it stays where it is.
+fn reorder<A: Arithmetic, const D: usize>(particles: &mut Set<'_, A, D>, order: &[u32]) {
+    fn each<T: Copy + Send + Sync, const C: usize>(items: &mut [T], order: &[u32]) {
+        let items = items.as_chunks_mut::<C>().0;
+        let sorted: Vec<[T; C]> = order.iter().map(|&place| items[place as usize]).collect();
         items.copy_from_slice(&sorted);
     }
-    let State {
-        id,
-        position,
-        velocity,
-        density,
-        ..
-    } = state;
-    rayon::join(
-        || rayon::join(|| one(id, order), || one(position, order)),
-        || rayon::join(|| one(velocity, order), || one(density, order)),
-    );
+    fn any<T: Copy + Send + Sync>(items: &mut [T], components: usize, order: &[u32]) {
+        match components {
+            1 => each::<_, 1>(items, order),
+            2 => each::<_, 2>(items, order),
+            3 => each::<_, 3>(items, order),
+            _ => {
+                let whole = |&place: &u32| place as usize * components..;
+                let one = |place| items[whole(place)][..components].iter().copied();
+                let sorted: Vec<T> = order.iter().flat_map(one).collect();
+                items.copy_from_slice(&sorted);
+            }
+        }
+    }
+    let (fields, side) = (particles.fields(), particles.side());
+    let (ids, words) = particles.parts();
+    rayon::scope(|scope| {
+        for (field, (components, words)) in fields.iter().zip(words) {
+            if field.role(side) == Role::State {
+                scope.spawn(move |_| any(words, components, order));
+            }
+        }
+        each::<_, 1>(ids, order);
+    });
 }
 
 /// Where most of the values are: from the least to the greatest, but no farther than six standard

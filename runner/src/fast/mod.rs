@@ -2,8 +2,8 @@
 //!
 //! `layout` keeps the state sorted into strips, so that neighbours are contiguous, and lists of who
 //! can meet whom (`making`, `meets`); `sweep` walks the pairs with the model's own pair terms written
-//! for rows of four; `chain` does two sums in one go; `walls` keeps the few particles that are near
-//! walls; [`Backend`] chooses the instructions at run time. Parts of the strips go to threads
+//! for rows of four; `fused` does the two sums of water in one go; `walls` keeps the few particles that
+//! are near walls; [`Backend`] chooses the instructions at run time. Parts of the strips go to threads
 //! (`awake`), each with sums of its own, which are added afterwards.
 //!
 //! A sweep does not look at single terms for their range; instead the pass bounds all of them from
@@ -14,7 +14,7 @@
 
 mod awake;
 mod backend;
-mod chain;
+mod fused;
 mod lanes;
 mod layout;
 mod making;
@@ -24,20 +24,23 @@ mod walls;
 
 pub use backend::Backend;
 
+use crate::drive::{Drive, Group};
 use crate::executor::Rayon;
-use chain::{Arguments, add_received};
+use fused::{Arguments, add_received};
 use lanes::{ROW, Reals};
 use layout::{Crew, Layout};
-use loschmidt_core::chain::{Chain, ChainSet, SumsOf, chain_in_turn};
-use loschmidt_core::executor::Targets;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
+use loschmidt_core::fields::{Operands, POSITION, Set, VELOCITY, read};
+use loschmidt_core::integrator::Stage;
+use loschmidt_core::model::{Model, Relax};
 use loschmidt_core::neighbours::{Cells, Grid};
-use loschmidt_core::number::{Quantity, Real};
-use loschmidt_core::pairs::{PairPass, Sources};
-use loschmidt_core::state::State;
-use loschmidt_core::{Arithmetic, Executor, Fault};
-use std::any::TypeId;
-use std::marker::PhantomData;
+use loschmidt_core::pairs::{PairPass, Sources, Targets, read_count, term_count};
+use loschmidt_core::points::{PointPass, visit};
+use loschmidt_core::schemes::wcsph::{Filtered, IMPULSE, Symplectic};
+use loschmidt_core::shears;
+use loschmidt_core::values::Values;
+use loschmidt_core::{Arithmetic, Executor, Fault, System};
+use std::any::Any;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -81,41 +84,45 @@ fn larger(largest: f64, word: f64) -> f64 {
 
 impl Memory {
     /// Copies what the pass reads into rows; returns the largest magnitudes.
-    fn load<Q: Quantity, const READ: usize>(&mut self, words: &[[Q; READ]]) -> [f64; READ] {
-        if READ == 0 {
-            return [0.0; READ];
+    fn load<A, P, const D: usize>(&mut self, to: &Targets<'_, A, D>) -> P::Read<f64>
+    where
+        A: Arithmetic,
+        P: PairPass<D>,
+    {
+        let each = read_count::<P, D>();
+        if each == 0 {
+            return P::Read::<f64>::from_fn(|_| 0.0);
         }
         let layout = &self.layout;
         self.words
-            .resize(layout.all_rows() * READ, Reals::default());
-        let parts = layout.split_rows(&mut self.words, READ);
+            .resize(layout.all_rows() * each, Reals::default());
+        let parts = layout.split_rows(&mut self.words, each);
         let largest = layout.for_parts(parts, |strips, rows| {
-            let mut largest = [0.0; READ];
+            let mut largest = vec![0.0; each];
             let first_row = layout.rows_of(&strips).start;
             for strip in &layout.strips[strips] {
-                let rows = &mut rows[(strip.rows().start - first_row) * READ..];
-                let rows = &mut rows[..strip.rows().len() * READ];
-                // Nobody is in the last slots, and nothing is read of them.
-                if let Some(last) = rows.len().checked_sub(READ) {
+                let rows = &mut rows[(strip.rows().start - first_row) * each..];
+                let rows = &mut rows[..strip.rows().len() * each];
+                // The last row may hold fewer particles than slots: the rest must not keep old
+                // numbers, which a sweep would load along with the others.
+                if let Some(last) = rows.len().checked_sub(each) {
                     rows[last..].fill(Reals::default());
                 }
-                let places = words[strip.places()].chunks(ROW);
-                for (row, places) in rows.chunks_exact_mut(READ).zip(places) {
-                    for (l, place) in places.iter().enumerate() {
-                        for k in 0..READ {
-                            row[k].0[l] = place[k].quanta();
-                            largest[k] = larger(largest[k], row[k].0[l]);
-                        }
+                for (k, place) in strip.places().enumerate() {
+                    let row = &mut rows[k / ROW * each..][..each];
+                    let values: P::Read<f64> = read(to.read, place);
+                    for (c, row) in row.iter_mut().enumerate() {
+                        let value = values.get(c);
+                        row.0[k % ROW] = value;
+                        largest[c] = larger(largest[c], value);
                     }
                 }
             }
             largest
         });
-        largest.into_iter().fold([0.0; READ], |mut all, part| {
-            for (all, part) in all.iter_mut().zip(part) {
-                *all = larger(*all, part);
-            }
-            all
+        P::Read::<f64>::from_fn(|c| {
+            let parts = largest.iter().map(|part| part[c]);
+            parts.fold(0.0, larger)
         })
     }
 }
@@ -180,17 +187,13 @@ impl Fast {
     }
 
     /// The plain traversal, with cells of its own: rare, so their memory may be.
-    fn plain<A, P, const D: usize, const READ: usize, const TERM: usize>(
+    fn plain<A: Arithmetic, P: PairPass<D>, const D: usize>(
         &self,
         pass: &P,
-        to: &Targets<'_, A, P::Word, D, READ>,
-        from: &Sources<'_, A, P::Word, D, READ>,
-        out: &mut [[P::Sum; TERM]],
-    ) -> Result<(), Fault>
-    where
-        A: Arithmetic,
-        P: PairPass<A, D, READ, TERM>,
-    {
+        to: &Targets<'_, A, D>,
+        from: &Sources<'_, A, D>,
+        out: &mut [A::Word],
+    ) -> Result<(), Fault> {
         let mut start = vec![0; from.grid.buckets() + 1];
         let mut order = vec![0; from.position.len()];
         let mut cells = Cells {
@@ -199,136 +202,20 @@ impl Fast {
         };
         cells.sort(from.grid, from.position);
         let from = Sources {
-            grid: from.grid,
             cells: cells.view(),
-            position: from.position,
-            read: from.read,
+            ..*from
         };
         self.rayon.sum(pass, to, &from, out)
     }
-}
 
-/// The fault of the smallest id.
-fn first_fault(results: Vec<Result<(), Fault>>) -> Result<(), Fault> {
-    let faults = results.into_iter().filter_map(Result::err);
-    faults.reduce(Fault::first).map_or(Ok(()), Err)
-}
-
-/// True for the arithmetic that the sweeps are written for.
-fn is_swept<A: Arithmetic>() -> bool {
-    A::EXACT && TypeId::of::<A::Real>() == TypeId::of::<f64>()
-}
-
-impl Executor for Fast {
-    fn name(&self) -> &'static str {
-        "fast"
-    }
-
-    fn for_each<T: Send>(
+    /// Sums over a set and itself, by sweeps.
+    fn sweep<A: Arithmetic, P: PairPass<D>, const D: usize>(
         &self,
-        items: &mut [T],
-        f: impl Fn(usize, &mut T) -> Result<(), Fault> + Sync,
-    ) -> Result<(), Fault> {
-        let memory = self.memory();
-        let layout = &memory.layout;
-        if items.len() != layout.particles() {
-            drop(memory);
-            return if self.is_little(items.len()) {
-                loschmidt_core::Serial.for_each(items, f)
-            } else {
-                self.rayon.for_each(items, f)
-            };
-        }
-        // The same particles for a thread as in the sums: what it wrote is in its cache.
-        let faults = layout.for_parts(layout.split_places(items), |strips, items| {
-            let first = layout.places_of(&strips).start;
-            loschmidt_core::Serial.for_each(items, |i, item| f(first + i, item))
-        });
-        first_fault(faults)
-    }
-
-    fn for_both<T: Send, U: Send>(
-        &self,
-        a: &mut [T],
-        b: &mut [U],
-        f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
-    ) -> Result<(), Fault> {
-        let memory = self.memory();
-        let layout = &memory.layout;
-        if a.len() != layout.particles() {
-            drop(memory);
-            return if self.is_little(a.len()) {
-                loschmidt_core::Serial.for_both(a, b, f)
-            } else {
-                self.rayon.for_both(a, b, f)
-            };
-        }
-        let items = layout
-            .split_places(a)
-            .into_iter()
-            .zip(layout.split_places(b))
-            .collect();
-        let faults = layout.for_parts(items, |strips, (a, b): (&mut [T], &mut [U])| {
-            let first = layout.places_of(&strips).start;
-            loschmidt_core::Serial.for_both(a, b, |i, a, b| f(first + i, a, b))
-        });
-        first_fault(faults)
-    }
-
-    fn locate<A: Arithmetic, const D: usize>(
-        &self,
-        grid: &Grid<D>,
-        state: &mut State<'_, A, D>,
-        cells: &mut Cells<'_>,
-        for_others: bool,
-    ) {
-        if is_swept::<A>() {
-            let reach = grid.reach() as f64;
-            self.memory().layout.update(reach, state, self.crew);
-        }
-        if for_others || !is_swept::<A>() {
-            cells.sort(grid, state.position);
-        }
-    }
-
-    fn locate_walls<A: Arithmetic, const D: usize>(
-        &self,
-        grid: &Grid<D>,
-        position: &[[A::Length; D]],
-        cells: &mut Cells<'_>,
-    ) {
-        cells.sort(grid, position);
-        self.memory().walls.forget();
-    }
-
-    fn sum<A, P, const D: usize, const READ: usize, const TERM: usize>(
-        &self,
+        memory: &mut Memory,
         pass: &P,
-        to: &Targets<'_, A, P::Word, D, READ>,
-        from: &Sources<'_, A, P::Word, D, READ>,
-        out: &mut [[P::Sum; TERM]],
-    ) -> Result<(), Fault>
-    where
-        A: Arithmetic,
-        P: PairPass<A, D, READ, TERM>,
-    {
-        let mut memory = self.memory();
-        let memory = &mut *memory;
-        if !is_swept::<A>() || !memory.layout.is_of(to.position) {
-            self.plain.fetch_or(to.same_set, Ordering::Relaxed);
-            return self.rayon.sum(pass, to, from, out);
-        }
-        if !to.same_set {
-            let Memory { layout, walls, .. } = memory;
-            return walls.sum(layout, pass, to, from, out);
-        }
-        let largest = memory.load(to.read);
-        let in_range = pass.bound(&largest.map(A::Real::from_f64)) < LIMIT;
-        if !in_range || memory.layout.most_candidates > MAX_NEIGHBOURS as usize {
-            self.plain.store(true, Ordering::Relaxed);
-            return self.plain(pass, to, from, out);
-        }
-        self.swept.store(true, Ordering::Relaxed);
+        out: &mut [A::Word],
+    ) {
+        let term = term_count::<P, D>();
         let Memory {
             layout,
             words,
@@ -338,51 +225,203 @@ impl Executor for Fast {
         let (layout, words) = (&*layout, &words[..]);
         sums.resize_with(layout.parts.len(), Default::default);
         layout.for_parts(sums.iter_mut().collect(), |strips, [sums, _]| {
-            sums.clear(layout.rows_reached::<D>(&strips), TERM);
-            self.crew.backend.run(Sweep::<A, P, D, READ, TERM> {
+            sums.clear(layout.rows_reached::<D>(&strips), term);
+            self.crew.backend.run(Sweep::<P, D> {
                 pass,
                 layout,
                 strips,
                 words,
                 sums,
-                arithmetic: PhantomData,
             });
         });
         let sums: Vec<_> = sums.iter().map(|[sums, _]| sums).collect();
-        layout.for_parts(layout.split_places(out), |strips, out| {
-            let mut out = out.iter_mut();
+        layout.for_parts(layout.split_places(out, term), |strips, out| {
+            let mut out = out.chunks_exact_mut(term);
             for strip in &layout.strips[strips] {
-                let contributors = layout.contributors::<TERM>(&sums, strip);
+                let contributors = layout.contributors(term, &sums, strip);
                 for (slot, out) in (strip.slot..strip.slot + strip.len).zip(&mut out) {
-                    add_received::<A::Real, _, TERM>(out, &contributors, slot);
+                    add_received(out, &contributors, slot);
                 }
             }
         });
-        Ok(())
+    }
+}
+
+/// The fault of the smallest id.
+fn first_fault(results: Vec<Result<(), Fault>>) -> Result<(), Fault> {
+    let faults = results.into_iter().filter_map(Result::err);
+    faults.reduce(Fault::first).map_or(Ok(()), Err)
+}
+
+impl Executor for Fast {
+    fn locate<A: Arithmetic, const D: usize>(
+        &self,
+        grid: &Grid<D>,
+        particles: &mut Set<'_, A, D>,
+        cells: &mut Cells<'_>,
+        for_others: bool,
+    ) {
+        // Sweeps are written for integer sums.
+        if A::EXACT {
+            let reach = grid.reach() as f64;
+            self.memory().layout.update(reach, particles, self.crew);
+        }
+        if for_others || !A::EXACT {
+            cells.sort(grid, particles.position());
+        }
     }
 
-    fn chain<A, C, const D: usize, const READ: usize, const FIRST: usize, const SECOND: usize>(
+    fn locate_walls<A: Arithmetic, const D: usize>(
         &self,
-        chain: &C,
-        set: &ChainSet<'_, A, D>,
-        sums: SumsOf<'_, A, C, D, READ, FIRST, SECOND>,
-    ) -> Result<(), Fault>
-    where
-        A: Arithmetic,
-        C: Chain<A, D, READ, FIRST, SECOND>,
-    {
-        let mut sums = sums;
-        let mut memory = self.memory();
-        // In space the arguments of a strip's neighbourhood are too many to be kept in a cache.
-        let fits = D == 2
-            && is_swept::<A>()
-            && memory.layout.is_of(set.position)
-            && memory.layout.most_candidates <= MAX_NEIGHBOURS as usize;
-        if fits && memory.chain(self.crew, chain, set, &mut sums)? {
-            self.swept.store(true, Ordering::Relaxed);
-            return Ok(());
+        grid: &Grid<D>,
+        walls: &Set<'_, A, D>,
+        cells: &mut Cells<'_>,
+    ) {
+        cells.sort(grid, walls.position());
+        self.memory().walls.forget();
+    }
+
+    fn points<A: Arithmetic, P: PointPass<A, D>, const D: usize>(
+        &self,
+        pass: &P,
+        set: &mut Set<'_, A, D>,
+    ) -> Result<(), Fault> {
+        let memory = self.memory();
+        let layout = &memory.layout;
+        if set.len() != layout.particles() {
+            drop(memory);
+            return if self.is_little(set.len()) {
+                loschmidt_core::Serial.points(pass, set)
+            } else {
+                self.rayon.points(pass, set)
+            };
         }
-        drop(memory);
-        chain_in_turn(self, chain, set, sums)
+        // The same particles for a thread as in the sums: what it wrote is in its cache.
+        let mut rest = set.operands(P::READ, P::WRITE);
+        let mut parts: Vec<Operands<'_, A::Word>> = Vec::with_capacity(layout.parts.len());
+        for part in &layout.parts {
+            let (first, others) = rest.split_at(layout.places_of(part).len());
+            parts.push(first);
+            rest = others;
+        }
+        first_fault(layout.for_parts(parts, |_, mut part| visit(pass, &mut part)))
+    }
+
+    fn sum<A: Arithmetic, P: PairPass<D>, const D: usize>(
+        &self,
+        pass: &P,
+        to: &Targets<'_, A, D>,
+        from: &Sources<'_, A, D>,
+        out: &mut [A::Word],
+    ) -> Result<(), Fault> {
+        let mut memory = self.memory();
+        let memory = &mut *memory;
+        if !A::EXACT || !memory.layout.is_of(to.position) {
+            self.plain.fetch_or(to.same_set, Ordering::Relaxed);
+            return self.rayon.sum(pass, to, from, out);
+        }
+        if !to.same_set {
+            let Memory { layout, walls, .. } = memory;
+            return walls.sum(layout, pass, to, from, out);
+        }
+        let largest = memory.load::<A, P, D>(to);
+        let in_range = pass.bound(&largest) < LIMIT;
+        if !in_range || memory.layout.most_candidates > MAX_NEIGHBOURS as usize {
+            self.plain.store(true, Ordering::Relaxed);
+            return self.plain(pass, to, from, out);
+        }
+        self.swept.store(true, Ordering::Relaxed);
+        self.sweep::<A, P, D>(memory, pass, out);
+        Ok(())
+    }
+}
+
+/// The reversible scheme of water, where a model is or contains it.
+fn symplectic<A: Arithmetic, M: Model<A, D>, const D: usize>(
+    model: &M,
+) -> Option<&Symplectic<A, D>> {
+    let model: &dyn Any = model;
+    let filtered = || model.downcast_ref::<Filtered<A, D>>().map(|f| f.0.scheme());
+    model.downcast_ref().or_else(filtered)
+}
+
+impl Drive for Fast {
+    fn prepare<A: Arithmetic, M: Model<A, D>, const D: usize>(
+        &self,
+        model: &M,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+    ) -> Result<(), Fault> {
+        // In space the arguments of a strip's neighbourhood are too many to be kept in a cache.
+        if D == 2
+            && A::EXACT
+            && let (Stage::Kick(c), Some(scheme)) = (stage, symplectic::<A, M, D>(model))
+            && !scheme.water().has_dummies(system)
+        {
+            let water = scheme.water();
+            water.locate(system, self);
+            let duration = water.duration(c);
+            let mut memory = self.memory();
+            let particles = &mut system.particles;
+            if memory.layout.most_candidates <= MAX_NEIGHBOURS as usize
+                && memory.densities_and_impulses(self.crew, water, duration, particles)?
+            {
+                drop(memory);
+                self.swept.store(true, Ordering::Relaxed);
+                return water.short_impulses(system, self, duration);
+            }
+        }
+        model.prepare(stage, system, self)
+    }
+
+    fn apply<A: Arithmetic, M: Model<A, D>, const D: usize>(
+        &self,
+        model: &M,
+        group: Group,
+        system: &mut System<'_, A, D>,
+    ) -> Result<(), Fault> {
+        match (group.drift, symplectic::<A, M, D>(model)) {
+            (Some((step, c)), Some(scheme)) => {
+                let pass = KicksAndDrift {
+                    first_step: group.step,
+                    twice: group.again,
+                    drift: scheme.water().drift(c),
+                    step,
+                };
+                self.points(&pass, &mut system.particles)
+            }
+            _ => group.in_turn(model, system, self),
+        }
+    }
+}
+
+/// A kick, once or twice, and the drift after it, in one go through the particles.
+struct KicksAndDrift {
+    /// The step that the first kick belongs to, and that of what comes after it.
+    first_step: u64,
+    step: u64,
+    twice: bool,
+    drift: shears::Drift,
+}
+
+impl<A: Arithmetic, const D: usize> PointPass<A, D> for KicksAndDrift {
+    type Read<T: Copy> = [T; D];
+    type Write<T: Copy> = [[T; D]; 2];
+    const READ: &'static [usize] = &[IMPULSE];
+    const WRITE: &'static [usize] = &[POSITION, VELOCITY];
+    #[inline(always)]
+    fn at(
+        &self,
+        id: u64,
+        impulse: &[A::Word; D],
+        [x, v]: &mut [[A::Word; D]; 2],
+    ) -> Result<(), Fault> {
+        let kick = shears::Kick::<IMPULSE>;
+        let mut add = || PointPass::<A, D>::at(&kick, id, impulse, v);
+        add().map_err(|fault| fault.at_step(self.first_step))?;
+        if self.twice {
+            add().map_err(|fault| fault.at_step(self.step))?;
+        }
+        PointPass::<A, D>::at(&self.drift, id, v, x).map_err(|fault| fault.at_step(self.step))
     }
 }

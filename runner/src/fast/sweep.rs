@@ -14,9 +14,8 @@ use super::backend::Work;
 use super::lanes::{Pack, Quad, ROW, Reals, Words};
 use super::layout::{Layout, Strip};
 use super::meets::{Meeting, Meets, step};
-use loschmidt_core::Arithmetic;
-use loschmidt_core::pairs::{PairPass, Parity};
-use std::marker::PhantomData;
+use loschmidt_core::pairs::{PairPass, Parity, read_count, term_count};
+use loschmidt_core::values::Values;
 use std::ops::Range;
 
 /// Added to r² in an own row: what does not come after i is far away.
@@ -61,17 +60,18 @@ impl Sums {
 
     /// Component k of a slot.
     #[inline(always)]
-    pub fn of<const TERM: usize>(&self, slot: usize, k: usize) -> i64 {
-        self.rows[(slot / ROW - self.first_row) * TERM + k].0[slot % ROW]
+    pub fn of(&self, components: usize, slot: usize, k: usize) -> i64 {
+        self.rows[(slot / ROW - self.first_row) * components + k].0[slot % ROW]
     }
 }
 
 /// A pass over one strip. All slices begin with its first row.
 ///
-/// Each particle of the strip has a *record* for its part as i: a row or more with its coordinates and
-/// words (as bits), and a row for what each lane has given it, for each component. All of it is at one address; with separate
-/// arrays a third of the instructions of a pair computed addresses.
-pub(super) struct Leg<'a, A, P, const D: usize, const READ: usize, const TERM: usize> {
+/// Each particle of the strip has a *record* for its part as i: a row or more with its coordinates
+/// and what is read of it (as bits), and a row for what each lane has given it, for each number of
+/// the term. All of it is at one address; with separate arrays a third of the instructions of a
+/// pair computed addresses.
+pub(super) struct Leg<'a, P, const D: usize> {
     pass: &'a P,
     strip: Strip,
     meets: &'a [Meeting],
@@ -79,19 +79,11 @@ pub(super) struct Leg<'a, A, P, const D: usize, const READ: usize, const TERM: u
     words: &'a [Reals],
     sums: &'a mut [Words],
     records: &'a mut [Words],
-    arithmetic: PhantomData<A>,
 }
 
 /// Where the argument of a term comes from.
 pub(super) trait Argument<Q: Quad> {
-    fn get<A, P, const D: usize, const READ: usize, const TERM: usize>(
-        &self,
-        pass: &P,
-        r2: Pack<A::Real, Q>,
-    ) -> Pack<A::Real, Q>
-    where
-        A: Arithmetic,
-        P: PairPass<A, D, READ, TERM>;
+    fn get<P: PairPass<D>, const D: usize>(&self, pass: &P, r2: Pack<Q>) -> Pack<Q>;
 }
 
 /// It is computed from r².
@@ -101,43 +93,26 @@ pub(super) struct Known(pub Reals);
 
 impl<Q: Quad> Argument<Q> for Fresh {
     #[inline(always)]
-    fn get<A, P, const D: usize, const READ: usize, const TERM: usize>(
-        &self,
-        pass: &P,
-        r2: Pack<A::Real, Q>,
-    ) -> Pack<A::Real, Q>
-    where
-        A: Arithmetic,
-        P: PairPass<A, D, READ, TERM>,
-    {
+    fn get<P: PairPass<D>, const D: usize>(&self, pass: &P, r2: Pack<Q>) -> Pack<Q> {
         pass.argument(r2)
     }
 }
 
 impl<Q: Quad> Argument<Q> for Known {
     #[inline(always)]
-    fn get<A, P, const D: usize, const READ: usize, const TERM: usize>(
-        &self,
-        _: &P,
-        r2: Pack<A::Real, Q>,
-    ) -> Pack<A::Real, Q>
-    where
-        A: Arithmetic,
-        P: PairPass<A, D, READ, TERM>,
-    {
+    fn get<P: PairPass<D>, const D: usize>(&self, _: &P, r2: Pack<Q>) -> Pack<Q> {
         Pack::new(r2.simd, r2.simd.load(self.0))
     }
 }
 
-impl<'a, A, P, const D: usize, const READ: usize, const TERM: usize> Leg<'a, A, P, D, READ, TERM>
-where
-    A: Arithmetic,
-    P: PairPass<A, D, READ, TERM>,
-{
-    /// Rows of a record with coordinates and words.
-    const HEAD: usize = (D + READ).div_ceil(ROW);
+impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
+    /// Numbers read of each particle, and numbers of a term.
+    const READ: usize = read_count::<P, D>();
+    const TERM: usize = term_count::<P, D>();
+    /// Rows of a record with coordinates and what is read.
+    const HEAD: usize = (D + Self::READ).div_ceil(ROW);
     /// Rows of a record.
-    const RECORD: usize = Self::HEAD + TERM;
+    const RECORD: usize = Self::HEAD + Self::TERM;
 
     /// A pass over strip number `s`. `words` are READ to a row, from row `words_from` on.
     ///
@@ -160,28 +135,28 @@ where
                 .resize(strip.len * Self::RECORD, Words::default());
         }
         let x = &layout.x[rows.start * D..];
-        let words = match READ {
+        let words = match Self::READ {
             0 => &[],
             _ if reached == 0 => &[],
-            _ => &words[(rows.start - words_from) * READ..],
+            _ => &words[(rows.start - words_from) * Self::READ..],
         };
         let sums_of = match reached {
             0 => &mut [],
-            _ => &mut sums.rows[(rows.start - sums.first_row) * TERM..],
+            _ => &mut sums.rows[(rows.start - sums.first_row) * Self::TERM..],
         };
         // What `meet` relies on.
         assert!(meets.particles() <= strip.len && strip.len <= rows.len() * ROW);
         assert!(reached * D <= x.len());
-        assert!(reached * READ <= words.len());
-        assert!(reached * TERM <= sums_of.len());
+        assert!(reached * Self::READ <= words.len());
+        assert!(reached * Self::TERM <= sums_of.len());
         let records = &mut sums.records[..strip.len * Self::RECORD];
         for (k, record) in records.chunks_exact_mut(Self::RECORD).enumerate() {
             let (row, lane) = (k / ROW, k % ROW);
             for d in 0..D {
                 set(record, d, x[row * D + d].0[lane]);
             }
-            for c in 0..READ {
-                set(record, D + c, words[row * READ + c].0[lane]);
+            for c in 0..Self::READ {
+                set(record, D + c, words[row * Self::READ + c].0[lane]);
             }
         }
         Self {
@@ -192,12 +167,11 @@ where
             words,
             sums: sums_of,
             records,
-            arithmetic: PhantomData,
         }
     }
 
-    /// Particle k meets the row that begins `at` steps from the first. With OWN, it is its own row, and
-    /// only those that come after k count. Returns the argument of the terms.
+    /// Particle k meets the row that begins `at` steps from the first. With OWN, it is its own row,
+    /// and only those that come after k count. Returns the argument of the terms.
     ///
     /// # Safety
     /// k is below the number of particles of the strip; the row is one of the strip's own or of its
@@ -216,17 +190,17 @@ where
         let (record, x_j, words_j, sums) = unsafe {
             (
                 self.records.as_mut_ptr().add(k * Self::RECORD),
-                rows_at::<_, D, D>(self.x, at),
-                rows_at::<_, READ, D>(self.words, at),
-                rows_at_mut::<_, TERM, D>(self.sums, at),
+                row_at::<_, D>(self.x, D, at),
+                row_at::<_, D>(self.words, Self::READ, at),
+                row_at_mut::<_, D>(self.sums, Self::TERM, at),
             )
         };
-        // SAFETY: a record has HEAD rows with D + READ numbers in them, and then TERM rows.
-        let of_i = |n: usize| unsafe { f64::from_bits((*record.add(n / ROW)).0[n % ROW] as u64) };
-        let zero = Pack::<A::Real, Q>::new(simd, simd.splat(0.0));
-        let mut x_ij = [zero; D];
+        let mut x_ij = [Pack::new(simd, simd.splat(0.0)); D];
         for d in 0..D {
-            x_ij[d] = Pack::new(simd, simd.sub(simd.splat(of_i(d)), simd.load(x_j[d])));
+            // SAFETY: there are D rows of coordinates.
+            let x_j = Pack::new(simd, simd.load(unsafe { *x_j.add(d) }));
+            // SAFETY: a record has D + READ numbers.
+            x_ij[d] = unsafe { number(simd, record, d) } - x_j;
         }
         let mut r2 = x_ij[0] * x_ij[0];
         for x in &x_ij[1..] {
@@ -235,22 +209,28 @@ where
         if OWN {
             r2 = r2 + Pack::new(simd, simd.load(AFTER[k % ROW]));
         }
-        let argument = argument.get::<A, P, D, READ, TERM>(self.pass, r2);
-        let (mut read_i, mut read_j) = ([zero; READ], [zero; READ]);
-        for c in 0..READ {
-            read_i[c] = Pack::new(simd, simd.splat(of_i(D + c)));
-            read_j[c] = Pack::new(simd, simd.load(words_j[c]));
-        }
+        let argument = argument.get(self.pass, r2);
+        let read_i = P::Read::<Pack<Q>>::from_fn(
+            #[inline(always)]
+            // SAFETY: a record has D + READ numbers.
+            |c| unsafe { number(simd, record, D + c) },
+        );
+        let read_j = P::Read::<Pack<Q>>::from_fn(
+            #[inline(always)]
+            // SAFETY: there are READ rows of words.
+            |c| Pack::new(simd, simd.load(unsafe { *words_j.add(c) })),
+        );
         let term = self.pass.term(&x_ij, argument, &read_i, &read_j);
-        for c in 0..TERM {
-            let rounded = simd.round(term[c].row);
-            let old = simd.load_words(sums[c]);
-            sums[c] = simd.store_words(match P::PARITY {
+        for c in 0..Self::TERM {
+            let rounded = simd.round(term.get(c).row);
+            // SAFETY: there are TERM rows of sums, and as many in a record after its head. No other
+            // reference to either is in use.
+            let (sum, received) = unsafe { (&mut *sums.add(c), &mut *record.add(Self::HEAD + c)) };
+            let old = simd.load_words(*sum);
+            *sum = simd.store_words(match P::PARITY.get(c) {
                 Parity::Symmetric => simd.plus(old, rounded),
                 Parity::Antisymmetric => simd.minus(old, rounded),
             });
-            // SAFETY: as above.
-            let received = unsafe { &mut *record.add(Self::HEAD + c) };
             *received = simd.store_words(if OWN {
                 // The first that i receives in this strip.
                 rounded
@@ -301,16 +281,13 @@ where
     /// # Panics
     /// There are not as many as [`Leg::arguments`].
     #[inline(always)]
-    pub fn along_with<Q, P2, const READ2: usize, const TERM2: usize>(
+    pub fn along_with<Q: Quad, P2: PairPass<D>>(
         &mut self,
         simd: Q,
         fresh: &mut [Reals],
-        second: &mut Leg<'_, A, P2, D, READ2, TERM2>,
+        second: &mut Leg<'_, P2, D>,
         known: &[Reals],
-    ) where
-        Q: Quad,
-        P2: PairPass<A, D, READ2, TERM2>,
-    {
+    ) {
         let (own, others) = fresh.split_at_mut(self.strip.len);
         let (known_own, known_others) = known.split_at(second.strip.len);
         let both = own.len().min(known_own.len());
@@ -344,7 +321,7 @@ where
     /// Adds what the particles have received as i.
     #[inline(always)]
     fn settle(&mut self) {
-        let sums = self.sums.chunks_exact_mut(TERM);
+        let sums = self.sums.chunks_exact_mut(Self::TERM);
         let records = self.records.chunks(ROW * Self::RECORD);
         for (sums, records) in sums.zip(records) {
             for (l, record) in records.chunks_exact(Self::RECORD).enumerate() {
@@ -364,62 +341,64 @@ fn set(record: &mut [Words], n: usize, value: f64) {
     record[n / ROW].0[n % ROW] = value.to_bits() as i64;
 }
 
-/// The row that begins `at` steps of dimension D from the first, of an array with N items to a row.
+/// Number n of a record, in every lane.
+///
+/// # Safety
+/// The record has such a number.
+#[inline(always)]
+unsafe fn number<Q: Quad>(simd: Q, record: *const Words, n: usize) -> Pack<Q> {
+    // SAFETY: the caller vouches for it.
+    let bits = unsafe { (*record.add(n / ROW)).0[n % ROW] };
+    Pack::new(simd, simd.splat(f64::from_bits(bits as u64)))
+}
+
+/// The row that begins `at` steps of dimension D from the first, of an array with `each` items to a
+/// row.
 ///
 /// # Safety
 /// The array has such a row.
 #[inline(always)]
-unsafe fn rows_at<T, const N: usize, const D: usize>(items: &[T], at: usize) -> &[T; N] {
-    debug_assert!((at / step(D) + 1) * N <= items.len() && at.is_multiple_of(step(D)));
-    // SAFETY: an array of N has the layout of N items, and the caller vouches for their being there.
-    unsafe { &*items.as_ptr().byte_add(at * bytes::<T, N, D>()).cast() }
+unsafe fn row_at<T, const D: usize>(items: &[T], each: usize, at: usize) -> *const T {
+    debug_assert!((at / step(D) + 1) * each <= items.len() && at.is_multiple_of(step(D)));
+    // SAFETY: the caller vouches for the row's being there.
+    unsafe { items.as_ptr().byte_add(at * bytes::<T, D>(each)) }
 }
 
-/// As [`rows_at`].
+/// As [`row_at`].
 ///
 /// # Safety
 /// The array has such a row.
 #[inline(always)]
-unsafe fn rows_at_mut<T, const N: usize, const D: usize>(
-    items: &mut [T],
-    at: usize,
-) -> &mut [T; N] {
-    debug_assert!((at / step(D) + 1) * N <= items.len() && at.is_multiple_of(step(D)));
-    // SAFETY: as in `rows_at`; the array is borrowed for as long as the row.
-    unsafe { &mut *items.as_mut_ptr().byte_add(at * bytes::<T, N, D>()).cast() }
+unsafe fn row_at_mut<T, const D: usize>(items: &mut [T], each: usize, at: usize) -> *mut T {
+    debug_assert!((at / step(D) + 1) * each <= items.len() && at.is_multiple_of(step(D)));
+    // SAFETY: as in `row_at`.
+    unsafe { items.as_mut_ptr().byte_add(at * bytes::<T, D>(each)) }
 }
 
-/// Bytes of a step where N items of 32 bytes make a row.
+/// Bytes of a step where so many items of 32 bytes make a row.
 #[inline(always)]
-const fn bytes<T, const N: usize, const D: usize>() -> usize {
+const fn bytes<T, const D: usize>(each: usize) -> usize {
     const { assert!(size_of::<T>().is_multiple_of(step(D))) };
-    N * (size_of::<T>() / step(D))
+    each * (size_of::<T>() / step(D))
 }
 
 /// One pass over some strips.
-pub(super) struct Sweep<'a, A, P, const D: usize, const READ: usize, const TERM: usize> {
+pub(super) struct Sweep<'a, P, const D: usize> {
     pub pass: &'a P,
     pub layout: &'a Layout,
     pub strips: Range<usize>,
     pub words: &'a [Reals],
     pub sums: &'a mut Sums,
-    pub arithmetic: PhantomData<A>,
 }
 
-impl<A, P, const D: usize, const READ: usize, const TERM: usize> Work
-    for Sweep<'_, A, P, D, READ, TERM>
-where
-    A: Arithmetic,
-    P: PairPass<A, D, READ, TERM>,
-{
+impl<P: PairPass<D>, const D: usize> Work for Sweep<'_, P, D> {
     type Output = ();
     #[inline(always)]
     fn run<Q: Quad>(self, simd: Q) {
         let layout = self.layout;
         for s in self.strips {
             let words = (self.words, 0);
-            Leg::<A, P, D, READ, TERM>::new(self.pass, layout, Some(s), words, self.sums)
-                .alone(simd);
+            Leg::<P, D>::new(self.pass, layout, Some(s), words, self.sums).alone(simd);
         }
     }
 }

@@ -5,9 +5,9 @@
 //! within reach.
 
 use super::layout::{Layout, key};
-use loschmidt_core::executor::Targets;
 use loschmidt_core::number::Quantity;
-use loschmidt_core::pairs::{Gathering, PairPass, Sources};
+use loschmidt_core::pairs::{Gathering, PairPass, Sources, Targets, term_count};
+use loschmidt_core::values::Values;
 use loschmidt_core::{Arithmetic, Fault};
 
 /// Who is near the walls.
@@ -33,18 +33,14 @@ impl NearWalls {
     ///
     /// # Errors
     /// As [`loschmidt_core::Executor::sum`].
-    pub fn sum<A, P, const D: usize, const READ: usize, const TERM: usize>(
+    pub fn sum<A: Arithmetic, P: PairPass<D>, const D: usize>(
         &mut self,
         layout: &Layout,
         pass: &P,
-        to: &Targets<'_, A, P::Word, D, READ>,
-        from: &Sources<'_, A, P::Word, D, READ>,
-        out: &mut [[P::Sum; TERM]],
-    ) -> Result<(), Fault>
-    where
-        A: Arithmetic,
-        P: PairPass<A, D, READ, TERM>,
-    {
+        to: &Targets<'_, A, D>,
+        from: &Sources<'_, A, D>,
+        out: &mut [A::Word],
+    ) -> Result<(), Fault> {
         let of = (key(from.position), from.grid.reach(), layout.version);
         if self.of != Some(of) {
             self.list::<A, D>(layout, to.position, from.position, from.grid.reach() as f64);
@@ -56,11 +52,16 @@ impl NearWalls {
             let walls = &self.walls[start..end as usize];
             start = end as usize;
             let place = place as usize;
-            let (x_i, read_i) = (&to.position[place], &to.read[place]);
-            let mut gathering = Gathering::new(pass, x_i, read_i, from, None, &mut out[place]);
+            let out = &mut out[place * term_count::<P, D>()..];
+            let mut sum = P::Term::<A::Word>::from_fn(|k| out[k]);
+            let mut gathering = Gathering::new(pass, to, place, from, &mut sum);
             gathering.add(walls);
-            if let Err(kind) = gathering.end() {
-                let fault = Fault::new(kind, to.id.get(place));
+            let result = gathering.end();
+            for (k, out) in out.iter_mut().take(term_count::<P, D>()).enumerate() {
+                *out = sum.get(k);
+            }
+            if let Err(kind) = result {
+                let fault = Fault::new(kind, to.id[place]);
                 first = Some(first.map_or(fault, |other| other.first(fault)));
             }
         }
@@ -77,11 +78,11 @@ impl NearWalls {
         let radius = reach + layout.skin;
         self.pairs.clear();
         for (w, x) in walls.iter().enumerate() {
-            let x = x.map(Quantity::quanta::<f64>);
+            let x = x.map(Quantity::quanta);
             for place in layout.near::<D>(&x, radius).flatten() {
                 let mut r2 = 0.0;
                 for (f, x) in fluid[place].iter().zip(&x) {
-                    let difference = f.quanta::<f64>() - x;
+                    let difference = f.quanta() - x;
                     r2 += difference * difference;
                 }
                 if r2 <= radius * radius {

@@ -38,7 +38,7 @@ struct Found<const D: usize> {
 
 /// Kernel, mass and reach.
 struct Law<'a> {
-    kernel: WendlandC2<f64>,
+    kernel: WendlandC2,
     settings: &'a Settings,
 }
 

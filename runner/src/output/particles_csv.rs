@@ -1,6 +1,7 @@
 //! A frame as comma-separated values (RFC 4180, with a line feed alone at the end of a line).
 //!
-//! The first line names the columns with their units; in 2D those of z are absent:
+//! The first line names the columns with their units; in 2D those of z are absent, and after the
+//! velocity come the columns of the model, here of water:
 //!
 //! ```text
 //! id,kind,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,density_kg_per_m3,pressure_Pa
@@ -17,7 +18,8 @@
 use std::io::{self, Write};
 
 use super::PIECE;
-use crate::frame::Frame;
+use crate::frame::{Frame, FrameColumn};
+use loschmidt_core::model::Measure;
 
 /// Writes frames as CSV, one after another with the same buffer.
 #[derive(Clone, Debug, Default)]
@@ -39,28 +41,26 @@ impl CsvWriter {
         frame.check()?;
         let axes = frame.dimension;
         self.text.clear();
-        self.header(axes);
+        let names: Vec<String> = frame.columns.iter().map(|c| heading(&c.measure)).collect();
+        self.header(axes, &names);
+        let mut numbers = Vec::new();
         let fluid = frame.id.iter().zip(&frame.position).zip(&frame.velocity);
-        let scalars = frame.density.iter().zip(&frame.pressure);
-        for (((id, x), v), (density, pressure)) in fluid.zip(scalars) {
-            self.row(*id, "fluid", &x[..axes], &v[..axes], *density, *pressure);
+        for (n, ((id, x), v)) in fluid.enumerate() {
+            numbers.clear();
+            numbers.extend(frame.columns.iter().map(|column| column.values[n]));
+            self.row(*id, "fluid", &x[..axes], &v[..axes], &numbers);
             self.spill(&mut to)?;
         }
+        numbers.clear();
+        numbers.resize(names.len(), f64::NAN);
         for (id, x) in frame.wall_ids().zip(&frame.wall_position) {
-            self.row(
-                id,
-                "wall",
-                &x[..axes],
-                &[0.0; 3][..axes],
-                f64::NAN,
-                f64::NAN,
-            );
+            self.row(id, "wall", &x[..axes], &[0.0; 3][..axes], &numbers);
             self.spill(&mut to)?;
         }
         to.write_all(&self.text)
     }
 
-    fn header(&mut self, axes: usize) {
+    fn header(&mut self, axes: usize, columns: &[String]) {
         self.text.extend_from_slice(b"id,kind");
         for names in [
             ["x_m", "y_m", "z_m"],
@@ -71,15 +71,18 @@ impl CsvWriter {
                 self.text.extend_from_slice(name.as_bytes());
             }
         }
-        self.text
-            .extend_from_slice(b",density_kg_per_m3,pressure_Pa\n");
+        for name in columns {
+            self.text.push(b',');
+            self.text.extend_from_slice(name.as_bytes());
+        }
+        self.text.push(b'\n');
     }
 
-    fn row(&mut self, id: u64, kind: &str, x: &[f64], v: &[f64], density: f64, pressure: f64) {
+    fn row(&mut self, id: u64, kind: &str, x: &[f64], v: &[f64], columns: &[f64]) {
         self.integer(id);
         self.text.push(b',');
         self.text.extend_from_slice(kind.as_bytes());
-        for value in x.iter().chain(v).chain(&[density, pressure]) {
+        for value in x.iter().chain(v).chain(columns) {
             self.text.push(b',');
             let mut digits = zmij::Buffer::new();
             self.text
@@ -113,26 +116,46 @@ impl CsvWriter {
     }
 }
 
-/// Reads a file that [`CsvWriter`] wrote. What the file does not hold (step, times, way and mass) is 0
-/// or `false`; the dimension is that of the header.
+/// The name of a column with its unit, in letters that every reader takes for a name.
+fn heading(measure: &Measure) -> String {
+    let unit = measure
+        .unit
+        .replace('/', "_per_")
+        .replace('²', "2")
+        .replace('³', "3");
+    let name = measure.name.replace([' ', '-'], "_");
+    match unit.is_empty() {
+        true => name,
+        false => format!("{name}_{unit}"),
+    }
+}
+
+/// Reads a file that [`CsvWriter`] wrote of a model with these columns. What the file does not hold
+/// (step, times, way and mass) is 0 or `false`; the dimension is that of the header.
 ///
 /// # Errors
 /// The reader's; `InvalidData` for a header or a line that this program does not write.
-pub fn read(from: impl io::Read) -> io::Result<Frame> {
+pub fn read(from: impl io::Read, columns: &[Measure]) -> io::Result<Frame> {
     let mut reader = csv::Reader::from_reader(from);
-    let axes = match reader.headers()?.len() {
-        8 => 2,
-        10 => 3,
+    let vectors = reader.headers()?.len().checked_sub(2 + columns.len());
+    let axes = match vectors {
+        Some(4) => 2,
+        Some(6) => 3,
         _ => return Err(bad("header", 1)),
     };
     let mut expected = CsvWriter::new();
-    expected.header(axes);
+    expected.header(axes, &columns.iter().map(heading).collect::<Vec<_>>());
     let header: Vec<&str> = reader.headers()?.iter().collect();
     if expected.text.trim_ascii_end() != header.join(",").as_bytes() {
         return Err(bad("header", 1));
     }
+    let empty = |&measure: &Measure| FrameColumn {
+        measure,
+        values: Vec::new(),
+    };
     let mut frame = Frame {
         dimension: axes,
+        columns: columns.iter().map(empty).collect(),
         ..Frame::default()
     };
     let mut record = csv::StringRecord::new();
@@ -155,8 +178,9 @@ pub fn read(from: impl io::Read) -> io::Result<Frame> {
                 frame.id.push(id.ok_or_else(|| bad("id", line))?);
                 frame.position.push(vector(2)?);
                 frame.velocity.push(vector(2 + axes)?);
-                frame.density.push(number(2 + 2 * axes)?);
-                frame.pressure.push(number(3 + 2 * axes)?);
+                for (n, column) in frame.columns.iter_mut().enumerate() {
+                    column.values.push(number(2 + 2 * axes + n)?);
+                }
             }
             Some("wall") => frame.wall_position.push(vector(2)?),
             _ => return Err(bad("kind", line)),

@@ -1,13 +1,90 @@
 //! `series.csv`: one line per [`Row`], the units in the header.
 //!
-//! Numbers are written in the shortest form that reads back to the same bits.
+//! The energies of the model stand between the times and their sum, each as `KIND_J`. Numbers are
+//! written in the shortest form that reads back to the same bits.
 
 use crate::run::Row;
-use std::io::{Read, Write};
+use serde::Serialize;
+use std::io::{self, Read, Write};
+
+/// One number of a line.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Number {
+    Whole(u64),
+    Signed(i64),
+    Sum(i128),
+    Real(f64),
+    Maybe(Option<f64>),
+}
+
+/// A column: its name, its number of a row, and how a row takes it from a text.
+type Column = (
+    &'static str,
+    fn(&Row) -> Number,
+    fn(&mut Row, &str) -> Option<()>,
+);
+
+/// A column of the field of this name.
+macro_rules! column {
+    ($name:literal, $field:ident, $kind:ident) => {
+        (
+            $name,
+            |row: &Row| Number::$kind(row.$field.into()),
+            |row: &mut Row, text: &str| {
+                row.$field = text.parse().ok()?;
+                Some(())
+            },
+        )
+    };
+    ($name:literal, $field:ident) => {
+        (
+            $name,
+            |row: &Row| Number::Maybe(row.$field),
+            |row: &mut Row, text: &str| {
+                row.$field = match text {
+                    "" => None,
+                    text => Some(text.parse().ok()?),
+                };
+                Some(())
+            },
+        )
+    };
+}
+
+/// Before the energies.
+const HEAD: [Column; 5] = [
+    column!("step", step, Whole),
+    column!("position", position, Signed),
+    column!("leg", leg, Whole),
+    column!("elapsed_s", elapsed_s, Real),
+    column!("time_s", time_s, Real),
+];
+
+/// After the energies.
+const TAIL: [Column; 13] = [
+    column!("total_J", total, Real),
+    column!("momentum_x_quanta", momentum_x_quanta, Sum),
+    column!("momentum_y_quanta", momentum_y_quanta, Sum),
+    column!("momentum_z_quanta", momentum_z_quanta, Sum),
+    column!("angular_momentum_x_kg_m2_per_s", angular_momentum_x, Real),
+    column!("angular_momentum_y_kg_m2_per_s", angular_momentum_y, Real),
+    column!("angular_momentum_z_kg_m2_per_s", angular_momentum_z, Real),
+    column!("entropy", entropy, Real),
+    column!(
+        "equilibrium_entropy_of_energy",
+        equilibrium_entropy_of_energy
+    ),
+    column!("equilibrium_entropy_of_fit", equilibrium_entropy_of_fit),
+    column!("fitted_temperature_m2_per_s2", fitted_temperature_m2_per_s2),
+    column!("faster_than_last_bin", faster_than_last_bin, Whole),
+    column!("front_m", front_m, Real),
+];
 
 /// Writes rows; the header comes before the first.
 pub struct SeriesWriter<W: Write> {
     csv: csv::Writer<W>,
+    begun: bool,
 }
 
 impl<W: Write> SeriesWriter<W> {
@@ -15,6 +92,7 @@ impl<W: Write> SeriesWriter<W> {
     pub fn new(writer: W) -> Self {
         Self {
             csv: csv::Writer::from_writer(writer),
+            begun: false,
         }
     }
 
@@ -22,21 +100,86 @@ impl<W: Write> SeriesWriter<W> {
     ///
     /// # Errors
     /// The writer's.
-    pub fn write(&mut self, row: &Row) -> std::io::Result<()> {
-        self.csv.serialize(row).map_err(std::io::Error::from)?;
+    pub fn write(&mut self, row: &Row) -> io::Result<()> {
+        if !std::mem::replace(&mut self.begun, true) {
+            let kinds = row.energies.iter().map(|(kind, _)| heading(kind));
+            let names = HEAD.iter().map(|column| column.0.to_owned());
+            let rest = TAIL.iter().map(|column| column.0.to_owned());
+            let header: Vec<String> = names.chain(kinds).chain(rest).collect();
+            self.csv.write_record(header)?;
+        }
+        let energies = row.energies.iter().map(|(_, value)| Number::Real(*value));
+        let head = HEAD.iter().map(|column| column.1(row));
+        let tail = TAIL.iter().map(|column| column.1(row));
+        let numbers: Vec<Number> = head.chain(energies).chain(tail).collect();
+        self.csv.serialize(numbers).map_err(io::Error::from)?;
         self.csv.flush()
     }
+}
+
+/// The heading of a kind of energy.
+fn heading(kind: &str) -> String {
+    format!("{}_J", kind.replace([' ', '-'], "_"))
 }
 
 /// Reads all whole lines; a last one without its end, which was cut off, is left out.
 ///
 /// # Errors
 /// The reader's, and a malformed line.
-pub fn read(mut reader: impl Read) -> std::io::Result<Vec<Row>> {
+pub fn read(mut reader: impl Read) -> io::Result<Vec<Row>> {
     let mut text = Vec::new();
     reader.read_to_end(&mut text)?;
     let whole = text.iter().rposition(|&byte| byte == b'\n');
     let whole = &text[..whole.map_or(0, |end| end + 1)];
-    let rows: csv::Result<Vec<Row>> = csv::Reader::from_reader(whole).into_deserialize().collect();
-    Ok(rows?)
+    let mut reader = csv::Reader::from_reader(whole);
+    let kinds = kinds(reader.headers()?)?;
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record = record?;
+        let line = record.position().map_or(0, csv::Position::line);
+        rows.push(row(&record, &kinds).ok_or_else(|| bad(&format!("line {line}")))?);
+    }
+    Ok(rows)
+}
+
+/// The kinds of energy that a header names; none of an empty file.
+fn kinds(header: &csv::StringRecord) -> io::Result<Vec<String>> {
+    if header.is_empty() {
+        return Ok(Vec::new());
+    }
+    let energies = header.len().checked_sub(HEAD.len() + TAIL.len());
+    let energies = energies.ok_or_else(|| bad("the header"))?;
+    let known = HEAD.iter().map(|column| column.0);
+    let known = known.chain(TAIL.iter().map(|column| column.0));
+    let names = header.iter().enumerate();
+    let (named, others): (Vec<_>, Vec<_>) =
+        names.partition(|(n, _)| !(HEAD.len()..HEAD.len() + energies).contains(n));
+    if !known.eq(named.into_iter().map(|(_, name)| name)) {
+        return Err(bad("the header"));
+    }
+    let kind = |(_, name): (usize, &str)| Some(name.strip_suffix("_J")?.to_owned());
+    let kinds: Option<Vec<String>> = others.into_iter().map(kind).collect();
+    kinds.ok_or_else(|| bad("the header"))
+}
+
+/// A line as a row.
+fn row(record: &csv::StringRecord, kinds: &[String]) -> Option<Row> {
+    let mut row = Row::default();
+    let mut texts = record.iter();
+    for column in &HEAD {
+        column.2(&mut row, texts.next()?)?;
+    }
+    for kind in kinds {
+        let value = texts.next()?.parse().ok()?;
+        row.energies.push((kind.clone().into(), value));
+    }
+    for column in &TAIL {
+        column.2(&mut row, texts.next()?)?;
+    }
+    Some(row)
+}
+
+fn bad(what: &str) -> io::Error {
+    let message = format!("{what} is not one of a series");
+    io::Error::new(io::ErrorKind::InvalidData, message)
 }

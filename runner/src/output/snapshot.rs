@@ -6,7 +6,7 @@
 //! | bytes | what |
 //! |---|---|
 //! | 8 | ASCII `LSCHSNAP` |
-//! | 8 | format version, 1 |
+//! | 8 | format version, 1 or 2 |
 //! | 16 | SipHash-2-4-128 (zero key) of the resolved scene's text |
 //! | 8 | dimension, 2 or 3 |
 //! | 8 | arithmetic: 0 fixed, 1 floating point (words are then the bits of doubles, in quanta) |
@@ -20,10 +20,20 @@
 //! | 8 W D | positions of the walls |
 //! | 8 W | density field of the walls |
 //! | 16 | SipHash-2-4-128 (zero key) of everything before |
+//!
+//! Version 1 is that of water: position, velocity and one density field, which walls have too. Any
+//! other state is written as version 2, which says more of its fields: before the name of each
+//! stands its parity under reversal (0 even, 1 odd), and the ids are followed by
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 8 | number of fields of the walls |
+//! | each × | parity, length of the name, the name, components C, W·C words |
+//! | 16 | the hash |
 
 use super::PIECE;
 use crate::player::Arrow;
-use crate::saved::{ArithmeticKind, SavedState};
+use crate::saved::{ArithmeticKind, SavedField, SavedState};
 use loschmidt_core::digest::{Hashing, Header, Kind, ParticleSum, hash};
 use loschmidt_core::{Digest, Scale};
 use std::io::{self, Write};
@@ -31,7 +41,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 const MAGIC: &[u8; 8] = b"LSCHSNAP";
-const VERSION: u64 = 1;
+/// The newest version.
+const VERSION: u64 = 2;
 
 /// A state, where it stands in time, and the scene it belongs to.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,7 +85,7 @@ pub enum Damage {
     #[error("it does not begin with LSCHSNAP")]
     NotASnapshot,
     /// Written by another version of the format.
-    #[error("its format version is {0}; this program reads version {VERSION}")]
+    #[error("its format version is {0}; this program reads versions 1 to {VERSION}")]
     Version(u64),
     /// The checksum is another.
     #[error("its checksum does not match: it was cut off or changed")]
@@ -105,8 +116,9 @@ impl Snapshot {
             piece: Vec::with_capacity(PIECE + 8),
             hashing: Hashing::default(),
         };
+        let version = if is_water(s) { 1 } else { 2 };
         writer.bytes(MAGIC)?;
-        writer.word(VERSION as i64)?;
+        writer.word(version)?;
         writer.bytes(&self.scene)?;
         for word in [
             s.dimension as i64,
@@ -118,20 +130,24 @@ impl Snapshot {
             self.position,
             i64::from(self.arrow == Arrow::Backward),
             s.id.len() as i64,
-            s.wall_density.len() as i64,
+            s.walls as i64,
             s.fields.len() as i64,
         ] {
             writer.word(word)?;
         }
-        for (name, words) in &s.fields {
-            writer.word(name.len() as i64)?;
-            writer.bytes(name.as_bytes())?;
-            writer.word((words.len() / s.id.len().max(1)) as i64)?;
-            words.iter().try_for_each(|w| writer.word(*w))?;
+        for field in &s.fields {
+            writer.field(field, s.id.len(), version)?;
         }
         s.id.iter().try_for_each(|id| writer.word(*id as i64))?;
-        let walls = s.wall_position.iter().chain(&s.wall_density);
-        walls.into_iter().try_for_each(|w| writer.word(*w))?;
+        if version == 1 {
+            let words = s.wall_fields.iter().flat_map(|field| &field.words);
+            words.into_iter().try_for_each(|w| writer.word(*w))?;
+            return writer.finish();
+        }
+        writer.word(s.wall_fields.len() as i64)?;
+        for field in &s.wall_fields {
+            writer.field(field, s.walls, version)?;
+        }
         writer.finish()
     }
 
@@ -145,7 +161,7 @@ impl Snapshot {
         }
         let mut reader = Reader { rest: &bytes[8..] };
         let version = reader.word("version")? as u64;
-        if version != VERSION {
+        if !(1..=VERSION).contains(&version) {
             return Err(Damage::Version(version));
         }
         let Some((body, checksum)) = bytes.split_last_chunk::<16>() else {
@@ -182,23 +198,34 @@ impl Snapshot {
         let walls = reader.count("number of wall particles")?;
         let mut fields = Vec::new();
         for _ in 0..reader.count("number of fields")? {
-            let length = reader.count("name of a field")?;
-            let name = reader.slice(length, "name of a field")?;
-            let name = str::from_utf8(name).map_err(|_| Damage::Field("name of a field"))?;
-            let components = reader.count("number of components")?;
-            let words = fluid
-                .checked_mul(components)
-                .ok_or(Damage::Field("number of components"))?;
-            fields.push((name.to_owned(), reader.words(words, "field")?));
+            fields.push(reader.field(fluid, version)?);
         }
         let id: Vec<u64> = reader
             .words(fluid, "ids")?
             .into_iter()
             .map(|w| w as u64)
             .collect();
-        let coordinates = walls
-            .checked_mul(dimension)
-            .ok_or(Damage::Field("number of wall particles"))?;
+        let mut wall_fields = Vec::new();
+        if version == 1 {
+            let (name, parts) = (fields.get(2), [("position", dimension), ("", 1)]);
+            for (known, components) in parts {
+                let words = walls
+                    .checked_mul(components)
+                    .ok_or(Damage::Field("number of wall particles"))?;
+                wall_fields.push(SavedField {
+                    name: match known {
+                        "" => name.map_or(String::new(), |field: &SavedField| field.name.clone()),
+                        known => known.to_owned(),
+                    },
+                    odd: false,
+                    words: reader.words(words, "walls")?,
+                });
+            }
+        } else {
+            for _ in 0..reader.count("number of wall fields")? {
+                wall_fields.push(reader.field(walls, version)?);
+            }
+        }
         let state = SavedState {
             dimension,
             arithmetic,
@@ -206,15 +233,18 @@ impl Snapshot {
             step,
             id,
             fields,
-            wall_position: reader.words(coordinates, "walls")?,
-            wall_density: reader.words(walls, "walls")?,
+            walls,
+            wall_fields,
         };
         let ids_count_up = state.id.iter().enumerate().all(|(n, id)| *id == n as u64);
-        let vectors = state.fields.len() == 3
-            && state.fields[0].1.len() == fluid * dimension
-            && state.fields[1].1.len() == fluid * dimension
-            && state.fields[2].1.len() == fluid;
-        if !reader.rest.is_empty() || !ids_count_up || !vectors {
+        let is_vector = |field: Option<&SavedField>, particles: usize| {
+            field.is_some_and(|field| field.words.len() == particles * dimension)
+        };
+        let complete = is_vector(state.fields.first(), fluid)
+            && is_vector(state.fields.get(1), fluid)
+            && is_vector(state.wall_fields.first(), walls)
+            && (version > 1 || is_water(&state));
+        if !reader.rest.is_empty() || !ids_count_up || !complete {
             return Err(Damage::Field("list of fields"));
         }
         Ok(Self {
@@ -245,30 +275,49 @@ impl Snapshot {
     pub fn digest(&self) -> Digest {
         let s = &self.state;
         let mut sum = ParticleSum::default();
-        for (n, id) in s.id.iter().enumerate() {
-            let words = s.fields.iter().flat_map(|(name, words)| {
-                let c = words.len() / s.id.len();
-                let turned = name == "velocity" && self.arrow == Arrow::Backward;
-                words[n * c..(n + 1) * c]
-                    .iter()
-                    .map(move |&w| if turned { negated(w, s.arithmetic) } else { w })
-            });
-            sum.add(Kind::Fluid, *id, words);
+        let turned = |field: &SavedField, w: i64| match field.odd && self.arrow == Arrow::Backward {
+            true => negated(w, s.arithmetic),
+            false => w,
+        };
+        for (kind, fields, particles, first) in [
+            (Kind::Fluid, &s.fields, s.id.len(), 0),
+            (Kind::Wall, &s.wall_fields, s.walls, s.id.len()),
+        ] {
+            for n in 0..particles {
+                let words = fields.iter().flat_map(|field| {
+                    let c = field.words.len() / particles;
+                    let words = field.words[n * c..(n + 1) * c].iter();
+                    words.map(move |&w| turned(field, w))
+                });
+                sum.add(kind, (first + n) as u64, words);
+            }
         }
-        for (w, density) in s.wall_density.iter().enumerate() {
-            let x = &s.wall_position[w * s.dimension..(w + 1) * s.dimension];
-            let id = (s.id.len() + w) as u64;
-            sum.add(Kind::Wall, id, x.iter().copied().chain([*density]));
-        }
+        let names: Vec<&str> = s.fields.iter().map(|field| field.name.as_str()).collect();
         sum.finish(&Header {
             dimension: s.dimension,
             fixed_point: s.arithmetic == ArithmeticKind::Fixed,
             scale: s.scale,
             fluid: s.id.len() as u64,
-            walls: s.wall_density.len() as u64,
-            fields: [0, 1, 2].map(|f| s.fields[f].0.as_str()),
+            walls: s.walls as u64,
+            fields: &names,
         })
     }
+}
+
+/// Whether version 1 of the format can hold the state.
+fn is_water(s: &SavedState) -> bool {
+    let [x, v, density] = &s.fields[..] else {
+        return false;
+    };
+    let [wall_x, wall_density] = &s.wall_fields[..] else {
+        return false;
+    };
+    v.name == "velocity"
+        && [x.odd, v.odd, density.odd] == [false, true, false]
+        && density.words.len() == s.id.len()
+        && wall_x.words.len() == s.dimension * s.walls
+        && wall_density.words.len() == s.walls
+        && ![wall_x.odd, wall_density.odd].contains(&true)
 }
 
 fn negated(word: i64, arithmetic: ArithmeticKind) -> i64 {
@@ -296,6 +345,15 @@ impl<W: Write> Writer<W> {
             return Ok(());
         }
         self.spill()
+    }
+    fn field(&mut self, field: &SavedField, particles: usize, version: i64) -> io::Result<()> {
+        if version > 1 {
+            self.word(i64::from(field.odd))?;
+        }
+        self.word(field.name.len() as i64)?;
+        self.bytes(field.name.as_bytes())?;
+        self.word((field.words.len() / particles.max(1)) as i64)?;
+        field.words.iter().try_for_each(|w| self.word(*w))
     }
     fn spill(&mut self) -> io::Result<()> {
         self.hashing.add(&self.piece);
@@ -342,6 +400,24 @@ impl<'a> Reader<'a> {
     }
     fn count(&mut self, what: &'static str) -> Result<usize, Damage> {
         usize::try_from(self.word(what)?).map_err(|_| Damage::Field(what))
+    }
+    fn field(&mut self, particles: usize, version: u64) -> Result<SavedField, Damage> {
+        let odd = match version {
+            1 => None,
+            _ => Some(self.word("parity of a field")? == 1),
+        };
+        let length = self.count("name of a field")?;
+        let name = self.slice(length, "name of a field")?;
+        let name = str::from_utf8(name).map_err(|_| Damage::Field("name of a field"))?;
+        let components = self.count("number of components")?;
+        let words = particles
+            .checked_mul(components)
+            .ok_or(Damage::Field("number of components"))?;
+        Ok(SavedField {
+            odd: odd.unwrap_or(name == "velocity"),
+            name: name.to_owned(),
+            words: self.words(words, "field")?,
+        })
     }
     fn words(&mut self, count: usize, what: &'static str) -> Result<Vec<i64>, Damage> {
         let length = count.checked_mul(8).ok_or(Damage::Field(what))?;

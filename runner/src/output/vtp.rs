@@ -19,8 +19,8 @@
 //!         id           Int64
 //!         kind         UInt8       0 fluid, 1 wall
 //!         velocity     Float64 x3  m/s
-//!         density      Float64     kg/m³
-//!         pressure     Float64     Pa
+//!         density      Float64     kg/m³   \ the columns of the model, here of water; the last
+//!         pressure     Float64     Pa      / one is what a viewer shows first
 //!       <Points>
 //!         position     Float64 x3  m
 //!       <Verts>
@@ -59,7 +59,25 @@ struct Array {
     /// Numbers per tuple.
     components: usize,
     /// Appends the bytes of some of its tuples.
-    fill: fn(&Frame, Range<usize>, &mut Vec<u8>),
+    fill: Fill,
+}
+
+/// What appends the bytes of some tuples of an array.
+#[derive(Clone, Copy)]
+enum Fill {
+    /// Of a frame's fixed lists.
+    With(fn(&Frame, Range<usize>, &mut Vec<u8>)),
+    /// Of this column of the model.
+    Column(usize),
+}
+
+impl Array {
+    fn fill(&self, frame: &Frame, places: Range<usize>, raw: &mut Vec<u8>) {
+        match self.fill {
+            Fill::With(fill) => fill(frame, places, raw),
+            Fill::Column(n) => fluid_scalars(&frame.columns[n].values, split(frame, places), raw),
+        }
+    }
 }
 
 const fn array(
@@ -74,7 +92,7 @@ const fn array(
         number,
         tuple_bytes,
         components,
-        fill,
+        fill: Fill::With(fill),
     }
 }
 
@@ -96,7 +114,7 @@ const FIELD_DATA: [Array; 5] = [
     }),
 ];
 
-const POINT_DATA: [Array; 5] = [
+const POINT_DATA: [Array; 3] = [
     array("id", "Int64", 8, 1, |frame, places, raw| {
         let (fluid, walls) = split(frame, places);
         let ids = frame.wall_ids().skip(walls.start).take(walls.len());
@@ -114,13 +132,20 @@ const POINT_DATA: [Array; 5] = [
         vectors(&frame.velocity[fluid], raw);
         raw.resize(raw.len() + 24 * walls.len(), 0); // the bytes of 0.0
     }),
-    array("density", "Float64", 8, 1, |frame, places, raw| {
-        fluid_scalars(&frame.density, split(frame, places), raw);
-    }),
-    array("pressure", "Float64", 8, 1, |frame, places, raw| {
-        fluid_scalars(&frame.pressure, split(frame, places), raw);
-    }),
 ];
+
+/// Everything that is recorded of a point.
+fn point_data(frame: &Frame) -> Vec<Array> {
+    let columns = frame.columns.iter().enumerate();
+    let columns = columns.map(|(n, column)| Array {
+        name: column.measure.name,
+        number: "Float64",
+        tuple_bytes: 8,
+        components: 1,
+        fill: Fill::Column(n),
+    });
+    POINT_DATA.into_iter().chain(columns).collect()
+}
 
 const POINTS: [Array; 1] = [array("position", "Float64", 24, 3, |frame, places, raw| {
     let (fluid, walls) = split(frame, places);
@@ -179,12 +204,13 @@ impl VtpWriter {
     pub fn write(&mut self, frame: &Frame, mut to: impl Write) -> io::Result<()> {
         frame.check()?;
         self.text.clear();
-        header(frame.particles(), &mut self.text)?;
+        let points = point_data(frame);
+        header(frame, &points, &mut self.text)?;
         to.write_all(&self.text)?;
         for array in &FIELD_DATA {
             self.append(array, frame, 1, &mut to)?;
         }
-        for array in POINT_DATA.iter().chain(&POINTS).chain(&VERTS) {
+        for array in points.iter().chain(&POINTS).chain(&VERTS) {
             self.append(array, frame, frame.particles(), &mut to)?;
         }
         to.write_all(b"\n  </AppendedData>\n</VTKFile>\n")
@@ -206,7 +232,7 @@ impl VtpWriter {
         let mut first = 0;
         loop {
             let last = (first + TUPLES).min(tuples);
-            (array.fill)(frame, first..last, &mut self.raw);
+            array.fill(frame, first..last, &mut self.raw);
             // Padding stands only at the end: whole threes, and the rest goes on.
             let whole = match last == tuples {
                 true => self.raw.len(),
@@ -226,7 +252,8 @@ impl VtpWriter {
 }
 
 /// Everything before the appended data.
-fn header(particles: usize, text: &mut Vec<u8>) -> io::Result<()> {
+fn header(frame: &Frame, points: &[Array], text: &mut Vec<u8>) -> io::Result<()> {
+    let particles = frame.particles();
     let mut offset = 0_u64;
     let mut section =
         |text: &mut Vec<u8>, indent: &str, tag: &str, arrays: &[Array], tuples: usize| {
@@ -259,8 +286,11 @@ fn header(particles: usize, text: &mut Vec<u8>) -> io::Result<()> {
         "    <Piece NumberOfPoints=\"{particles}\" NumberOfVerts=\"{particles}\" \
          NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">"
     )?;
-    let point_data = "PointData Scalars=\"pressure\" Vectors=\"velocity\"";
-    section(text, "      ", point_data, &POINT_DATA, particles)?;
+    let shown = frame.columns.last().map_or(String::new(), |column| {
+        format!(" Scalars=\"{}\"", column.measure.name)
+    });
+    let point_data = format!("PointData{shown} Vectors=\"velocity\"");
+    section(text, "      ", &point_data, points, particles)?;
     section(text, "      ", "Points", &POINTS, particles)?;
     section(text, "      ", "Verts", &VERTS, particles)?;
     text.write_all(b"    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"base64\">\n    _")

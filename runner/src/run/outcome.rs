@@ -131,10 +131,10 @@ impl EnergyBalance {
     #[must_use]
     pub fn of(rows: &[Row]) -> Option<Self> {
         let home = rows.first()?;
-        let lowest = rows
-            .iter()
-            .fold(home.gravitational, |l, r| l.min(r.gravitational));
-        let released = home.gravitational - lowest;
+        let lowest = rows.iter().fold(home.energy("gravitational"), |l, r| {
+            l.min(r.energy("gravitational"))
+        });
+        let released = home.energy("gravitational") - lowest;
         let max_error = rows
             .iter()
             .fold(0.0, |m: f64, r| m.max((r.total - home.total).abs()));
@@ -220,7 +220,7 @@ impl Outcome {
             scene: scene.name.clone(),
             dimension,
             particles,
-            wall_particles: player.home().wall_density.len() as u64,
+            wall_particles: player.home().walls as u64,
             steps: player.steps_taken(),
             time_step_s: scene.time_step(),
             model: scene.model.word().to_owned(),

@@ -1,14 +1,14 @@
 //! A row of the series: what is recorded of a state.
 
 use crate::player::Player;
-use loschmidt_core::{Diagnostics, Energies, Fault};
-use serde::{Deserialize, Serialize};
+use loschmidt_core::{Diagnostics, Fault};
+use std::borrow::Cow;
 
-/// One line of `series.csv`. The units stand in the names of the columns.
+/// One line of `series.csv`.
 ///
 /// Everything is computed from the synchronised state by sums that no order can change: rows of the
 /// way back equal those of the way out to the last bit, but for the signs of the momenta.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
     /// Steps taken over both legs.
     pub step: u64,
@@ -20,20 +20,9 @@ pub struct Row {
     pub elapsed_s: f64,
     /// Physical time.
     pub time_s: f64,
-    /// Kinetic energy. Energies are per m of depth in 2D.
-    #[serde(rename = "kinetic_J")]
-    pub kinetic: f64,
-    /// Internal energy, zero at the reference density.
-    #[serde(rename = "internal_J")]
-    pub internal: f64,
-    /// Gravitational energy.
-    #[serde(rename = "gravitational_J")]
-    pub gravitational: f64,
-    /// Energy of the walls.
-    #[serde(rename = "wall_J")]
-    pub wall: f64,
-    /// Their sum.
-    #[serde(rename = "total_J")]
+    /// Energies by kind, J (per m of depth in 2D), in the model's order; the first is the kinetic one.
+    pub energies: Vec<(Cow<'static, str>, f64)>,
+    /// Their sum, J.
     pub total: f64,
     /// Σ v in speed quanta, an exact integer.
     pub momentum_x_quanta: i128,
@@ -41,14 +30,11 @@ pub struct Row {
     pub momentum_y_quanta: i128,
     /// Σ v in speed quanta, an exact integer.
     pub momentum_z_quanta: i128,
-    /// Angular momentum about the origin.
-    #[serde(rename = "angular_momentum_x_kg_m2_per_s")]
+    /// Angular momentum about the origin, kg m²/s.
     pub angular_momentum_x: f64,
-    /// Angular momentum about the origin.
-    #[serde(rename = "angular_momentum_y_kg_m2_per_s")]
+    /// Angular momentum about the origin, kg m²/s.
     pub angular_momentum_y: f64,
-    /// Angular momentum about the origin; the only component in 2D.
-    #[serde(rename = "angular_momentum_z_kg_m2_per_s")]
+    /// Angular momentum about the origin, kg m²/s; the only component in 2D.
     pub angular_momentum_z: f64,
     /// Reduced Boltzmann entropy (17).
     pub entropy: f64,
@@ -77,7 +63,7 @@ impl Row {
     /// The row of the player's state, of which `d` was just measured.
     #[must_use]
     pub fn of(player: &Player, leg: u8, d: &Diagnostics) -> Self {
-        let e: Energies = d.energies;
+        let energies = d.energies.iter();
         let fit = d.histogram.fitted_temperature();
         Self {
             step: player.steps_taken(),
@@ -85,11 +71,8 @@ impl Row {
             leg,
             elapsed_s: player.steps_taken() as f64 * player.scene().time_step(),
             time_s: player.time(),
-            kinetic: e.kinetic,
-            internal: e.internal,
-            gravitational: e.gravitational,
-            wall: e.wall,
-            total: e.total(),
+            energies: energies.map(|(name, value)| (name.into(), value)).collect(),
+            total: d.energies.total(),
             momentum_x_quanta: d.momentum_quanta[0],
             momentum_y_quanta: d.momentum_quanta[1],
             momentum_z_quanta: d.momentum_quanta[2],
@@ -99,7 +82,7 @@ impl Row {
             entropy: d.histogram.entropy(),
             equilibrium_entropy_of_energy: d.histogram.equilibrium_of_energy(),
             equilibrium_entropy_of_fit: fit.and_then(|t| {
-                loschmidt_core::diagnostics::equilibrium_entropy(d.histogram.dimension, t)
+                loschmidt_core::observe::equilibrium_entropy(d.histogram.dimension, t)
             }),
             fitted_temperature_m2_per_s2: fit,
             faster_than_last_bin: d.histogram.beyond,
@@ -125,6 +108,21 @@ impl Row {
             *moment = -*moment;
         }
         self
+    }
+
+    /// Whether the model has an energy of this kind.
+    #[must_use]
+    pub fn has_energy(&self, kind: &str) -> bool {
+        self.energies.iter().any(|(name, _)| name == kind)
+    }
+
+    /// The energy of this kind, J; 0 where the model has no such kind.
+    #[must_use]
+    pub fn energy(&self, kind: &str) -> f64 {
+        let mut energies = self.energies.iter();
+        energies
+            .find(|(name, _)| name == kind)
+            .map_or(0.0, |(_, value)| *value)
     }
 
     /// Σ v in speed quanta.

@@ -124,10 +124,10 @@ impl Stage {
 
     /// Gravitational energy at the start less its lowest value so far, J.
     pub fn released(&self) -> f64 {
-        let start = self.opened.first.gravitational;
+        let start = self.opened.first.energy("gravitational");
         let rows = self.track.out().iter().chain(self.track.back());
-        let lowest = rows.fold(start, |low, row| low.min(row.gravitational));
-        start - lowest.min(self.row().gravitational)
+        let lowest = rows.fold(start, |low, row| low.min(row.energy("gravitational")));
+        start - lowest.min(self.row().energy("gravitational"))
     }
 
     /// The particle whose bit was flipped last.

@@ -10,6 +10,7 @@ use crate::home::Home;
 use loschmidt_runner::output::particles_csv;
 use loschmidt_runner::output::{Manifest, OutputError, RunDirectory, Status, frame_path};
 use loschmidt_runner::scene::{Scene, Source, load};
+use loschmidt_runner::setup;
 use loschmidt_runner::{Frame, Plan, Points, RunError};
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -107,7 +108,7 @@ impl Stored {
     fn frame(&self, index: usize) -> Result<Frame, MovieError> {
         let path = self.path.join(frame_path(index as u64, "csv"));
         let frame = File::open(&path)
-            .and_then(particles_csv::read)
+            .and_then(|file| particles_csv::read(file, setup::columns(&self.scene)))
             .map_err(|e| OutputError::NotARun {
                 path: self.path.clone(),
                 why: format!("{} cannot be read ({e})", path.display()),

@@ -166,7 +166,7 @@ fn around(state: &SavedState, reach: f64) -> Vec<Vec<[f64; 2]>> {
 /// Which particles of a lattice lie at a surface: a fifth of their density is missing.
 fn at_surface(lattice: &SavedState, spacing: f64) -> Vec<bool> {
     let h = 3.0 * spacing;
-    let kernel = WendlandC2::<f64>::new(2, h, 1.0);
+    let kernel = WendlandC2::new(2, h, 1.0);
     let volume = spacing * spacing;
     let density = |near: &Vec<[f64; 2]>| {
         let own = volume * kernel.value(0.0);
@@ -266,7 +266,7 @@ fn dummies(lab: &mut Lab<'_>, section: &mut Section) -> Result<(), LabError> {
         let set = set([spacing, "wall_model=dummy", &cfl_set, "output.frames=0"]);
         let past = lab.run(&format!("dummies-{cfl}"), scene("dam-break", &set)?, Fixed)?;
         let with = deviation(&past, |row| row.total);
-        let without = deviation(&past, |row| row.total - row.wall);
+        let without = deviation(&past, |row| row.total - row.energy("wall"));
         section.measure(
             &format!("dummy walls, cfl {cfl}: error with / without the dummies' own energy"),
             format!("{with:.1e} / {without:.1e} of the released"),

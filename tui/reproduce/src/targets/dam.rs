@@ -37,7 +37,10 @@ pub fn fig2(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let set = |model| [spacing, "turnaround=", "end=1.0", "output.frames=0", model];
     let standard = dam(lab, "fig2-standard", &set("model=standard"), Fixed)?;
     let symplectic = dam(lab, "fig2-symplectic", &set("model=symplectic"), Fixed)?;
-    let unit = standard.rows.first().map_or(1.0, |row| row.gravitational);
+    let unit = standard
+        .rows
+        .first()
+        .map_or(1.0, |row| row.energy("gravitational"));
     let error = |past: &Past| -> Vec<[f64; 2]> {
         let home = past.rows.first().map_or(0.0, |row| row.total);
         let rows = past.rows.iter();
@@ -91,7 +94,7 @@ pub fn fig2(lab: &mut Lab<'_>) -> Result<Section, LabError> {
 /// A picture of a state in the box of the dam break.
 fn picture(state: &SavedState, scene: &loschmidt_runner::scene::Scene, title: &str) -> Field {
     let n = state.id.len();
-    let wall_words = state.wall_position.chunks(state.dimension);
+    let wall_words = state.wall_positions().chunks(state.dimension);
     let quantum = state.scale.length_quantum();
     let value = |w: i64| match state.arithmetic {
         Fixed => w as f64 * quantum,
@@ -225,10 +228,12 @@ pub fn fig5(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     budget(&past, lab.quick(), &mut section);
     let energies: [Shown; 5] = [
         ("fig8", "total energy", |row| row.total),
-        ("fig9", "kinetic energy", |row| row.kinetic),
-        ("fig10", "gravitational energy", |row| row.gravitational),
-        ("fig11", "internal energy", |row| row.internal),
-        ("fig12", "wall energy", |row| row.wall),
+        ("fig9", "kinetic energy", |row| row.energy("kinetic")),
+        ("fig10", "gravitational energy", |row| {
+            row.energy("gravitational")
+        }),
+        ("fig11", "internal energy", |row| row.energy("internal")),
+        ("fig12", "wall energy", |row| row.energy("wall")),
     ];
     let released = EnergyBalance::of(&past.rows).map_or(1.0, |balance| balance.released);
     let both = |value: &dyn Fn(&Row) -> f64| {
@@ -306,15 +311,15 @@ fn budget(past: &Past, quick: bool, section: &mut Section) {
         );
     }
     if let Some(turn) = past.out().last() {
-        let released = home.gravitational - turn.gravitational;
+        let released = home.energy("gravitational") - turn.energy("gravitational");
         section.measure(
             "released energy that is kinetic at the turnaround",
-            percent((turn.kinetic - home.kinetic) / released),
+            percent((turn.energy("kinetic") - home.energy("kinetic")) / released),
             "about 3/4",
         );
         section.measure(
             "released energy that is internal at the turnaround",
-            percent((turn.internal - home.internal) / released),
+            percent((turn.energy("internal") - home.energy("internal")) / released),
             "about 1/4",
         );
     }

@@ -14,7 +14,7 @@ use loschmidt_runner::{Player, SavedState};
 fn perturbed(state: &SavedState, quanta: i64) -> SavedState {
     let mut state = state.clone();
     let mut random: u64 = 1876;
-    for word in &mut state.fields[0].1 {
+    for word in &mut state.fields[0].words {
         random = random.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = random;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

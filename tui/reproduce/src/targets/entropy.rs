@@ -4,7 +4,7 @@ use super::{dam_break, same_way_back};
 use crate::lab::{Lab, LabError};
 use crate::section::Section;
 use crate::svg::{self, Chart, Style};
-use loschmidt_core::diagnostics::{BINS, SpeedHistogram};
+use loschmidt_core::observe::{BINS, SpeedHistogram};
 use loschmidt_runner::SavedState;
 
 /// Speeds of the fluid, sorted, m/s.

@@ -80,7 +80,11 @@ const NOTES: [&str; 4] = [
 
 /// The error (11) of these velocities at this moment.
 fn error(frame: &Frame, velocity: &[[f64; 3]], exact: Velocity) -> f64 {
-    let each = frame.position.iter().zip(velocity).zip(&frame.density);
+    let each = frame
+        .position
+        .iter()
+        .zip(velocity)
+        .zip(frame.column("density").unwrap_or_default());
     let sum = each.fold(0.0, |sum, ((x, u), rho)| {
         let exact = exact.at(*x);
         let square: f64 = (0..2).map(|d| (u[d] - exact[d]).powi(2)).sum();

@@ -39,10 +39,10 @@ fn percent(x: f64) -> String {
 fn same_way_back(past: &Past) -> bool {
     let bits = |row: &Row| {
         [
-            row.kinetic,
-            row.internal,
-            row.gravitational,
-            row.wall,
+            row.energy("kinetic"),
+            row.energy("internal"),
+            row.energy("gravitational"),
+            row.energy("wall"),
             row.total,
             row.entropy,
             row.front_m,

@@ -30,7 +30,11 @@ fn error(past: &Past) -> f64 {
     let Some(balance) = EnergyBalance::of(&past.rows) else {
         return f64::NAN;
     };
-    let kinetic = past.rows.iter().map(|row| row.kinetic).fold(0.0, f64::max);
+    let kinetic = past
+        .rows
+        .iter()
+        .map(|row| row.energy("kinetic"))
+        .fold(0.0, f64::max);
     balance
         .max_error_over_released
         .unwrap_or(balance.max_error / kinetic)

@@ -10,9 +10,10 @@ use loschmidt_viewer::Rgb;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
+use std::borrow::Cow;
 
-/// An energy: its colour, and its value in J.
-type Part = (Rgb, fn(&Row) -> f64);
+/// An energy: its name, its colour, and its value in J.
+type Part = (Cow<'static, str>, Rgb, Box<dyn Fn(&Row) -> f64>);
 
 /// Draws the energies.
 pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
@@ -21,12 +22,14 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     }
     let row = stage.row();
     let first = &stage.opened.first;
-    let largest = first
-        .total
-        .abs()
-        .max(stage.track.out().iter().fold(0.0, |m, r| m.max(r.kinetic)));
+    let largest = first.total.abs().max(
+        stage
+            .track
+            .out()
+            .iter()
+            .fold(0.0, |m, r| m.max(r.energy("kinetic"))),
+    );
     let (unit, scale) = energy_unit(largest);
-    let theme = &ink.theme;
     let depth = if stage.home.dimension == 2 {
         " per m of depth"
     } else {
@@ -48,19 +51,12 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
             .0;
     }
     let _ = x;
-    type Named<'a> = (&'a str, &'a str, Rgb, fn(&Row) -> f64);
-    let parts: [Named<'_>; 5] = [
-        ("kinetic", "kin", theme.forward, |r| r.kinetic),
-        ("gravitational", "grav", theme.second, |r| r.gravitational),
-        ("internal", "int", theme.third, |r| r.internal),
-        ("wall", "wall", theme.faint, |r| r.wall),
-        ("total", "total", theme.text, |r| r.total),
-    ];
+    let parts = parts(row, ink);
     let long = area.width >= 60;
     let mut pieces: Vec<Vec<Piece>> = parts
         .iter()
-        .map(|(name, brief, colour, value)| {
-            let name = if long { name } else { brief };
+        .map(|(name, colour, value)| {
+            let name = if long { name } else { brief(name) };
             let style = ink.of_colour(*colour);
             vec![
                 (format!("{name} "), style),
@@ -86,10 +82,36 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let used = flow(&pieces, area, buf);
     let top = area.y + 1 + used;
     let plot = Rect::new(area.x, top, area.width, area.bottom().saturating_sub(top));
-    let curves = parts
-        .each_ref()
-        .map(|(_, _, colour, value)| (*colour, *value));
-    draw(stage, scale, &curves, plot, buf, ink);
+    draw(stage, scale, &parts, plot, buf, ink);
+}
+
+/// The energies of a row and their sum. The kinetic one comes first, then that of gravity: they are
+/// what moves most.
+fn parts(row: &Row, ink: &Ink) -> Vec<Part> {
+    let theme = &ink.theme;
+    let colours = [theme.forward, theme.second, theme.third, theme.faint];
+    let mut kinds: Vec<_> = row.energies.iter().map(|(kind, _)| kind.clone()).collect();
+    kinds.sort_by_key(|kind| match kind.as_ref() {
+        "kinetic" => 0,
+        "gravitational" => 1,
+        _ => 2,
+    });
+    let kinds = kinds.into_iter().zip(colours.into_iter().cycle());
+    let part = |(kind, colour): (Cow<'static, str>, Rgb)| -> Part {
+        let name = kind.clone();
+        (name, colour, Box::new(move |row: &Row| row.energy(&kind)))
+    };
+    let total: Part = ("total".into(), theme.text, Box::new(|row: &Row| row.total));
+    kinds.map(part).chain([total]).collect()
+}
+
+/// The name where there is little room.
+fn brief(kind: &str) -> &str {
+    match kind {
+        "kinetic" => "kin",
+        "internal" => "int",
+        other => other.get(..4).filter(|_| other != "total").unwrap_or(other),
+    }
 }
 
 /// Writes groups of pieces in rows below the title; how many rows it took.
@@ -119,11 +141,11 @@ fn flow(groups: &[Vec<Piece>], area: Rect, buf: &mut Buffer) -> u16 {
     (row + 1).min(most)
 }
 
-fn draw(stage: &Stage, scale: f64, parts: &[Part; 5], area: Rect, buf: &mut Buffer, ink: &Ink) {
+fn draw(stage: &Stage, scale: f64, parts: &[Part], area: Rect, buf: &mut Buffer, ink: &Ink) {
     let rows = || stage.track.out().iter().chain(stage.track.back());
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
     for row in rows() {
-        for (_, value) in parts {
+        for (_, _, value) in parts {
             low = low.min(value(row) / scale);
             high = high.max(value(row) / scale);
         }
@@ -133,7 +155,7 @@ fn draw(stage: &Stage, scale: f64, parts: &[Part; 5], area: Rect, buf: &mut Buff
     }
     let values: Vec<_> = parts
         .iter()
-        .map(|(colour, value)| (*colour, move |row: &Row| Some(value(row) / scale)))
+        .map(|(_, colour, value)| (*colour, move |row: &Row| Some(value(row) / scale)))
         .collect();
     let curves: Vec<Curve<'_>> = values
         .iter()

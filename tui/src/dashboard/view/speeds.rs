@@ -5,7 +5,7 @@ use super::dots::Dots;
 use super::ink::{Ink, colour};
 use super::numbers::short;
 use super::{Piece, width, write};
-use loschmidt_core::diagnostics::{BINS, SpeedHistogram};
+use loschmidt_core::observe::{BINS, SpeedHistogram};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 

@@ -11,8 +11,6 @@
 //! is computed as (c²/42)(x-1)²(x⁵ + 2x⁴ + 3x³ + 4x² + 5x + 6)/x, the same polynomial without the
 //! cancellation near x = 1.
 
-use crate::number::Real;
-
 /// Which p(ρ).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StateEquation {
@@ -25,15 +23,14 @@ pub enum StateEquation {
 impl StateEquation {
     /// p/ρ² divided by c²/ρ0, as a function of x = ρ/ρ0; dimensionless.
     #[inline]
-    pub fn pressure_over_density_squared<R: Real>(self, x: R) -> R {
-        let one = R::from_f64(1.0);
+    pub fn pressure_over_density_squared(self, x: f64) -> f64 {
         let x2 = x * x;
         match self {
             Self::Tait => {
                 let x4 = x2 * x2;
-                ((x4 * x2) * x - one) / (R::from_f64(7.0) * x2)
+                ((x4 * x2) * x - 1.0) / (7.0 * x2)
             }
-            Self::Linear => (x - one) / x2,
+            Self::Linear => (x - 1.0) / x2,
         }
     }
 

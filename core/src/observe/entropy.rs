@@ -11,11 +11,11 @@
 //! - 2D: f(v) = (m/kT) v exp(-m v²/2kT)                                                    (19)
 //! - 3D: f(v) = (2/π)^(1/2) (m/kT)^(3/2) v² exp(-m v²/2kT)
 //!
-//! The bins are the same for a whole run: 100 equal ones on \[0, c/6\], faster particles in the
-//! last and counted. S depends on the bins.
+//! The bins are the same for a whole run: 100 equal ones up to the model's largest speed (c/6 for
+//! water), faster particles in the last and counted. S depends on the bins.
 
 use crate::number::{Arithmetic, Quantity};
-use crate::state::System;
+use crate::system::System;
 use core::f64::consts::PI;
 
 /// Number of bins.
@@ -37,17 +37,16 @@ pub struct SpeedHistogram {
 }
 
 impl SpeedHistogram {
-    /// Counts the speeds. `sound_speed` in m/s fixes the bins.
+    /// Counts the speeds in bins of this width, m/s.
     pub(super) fn measure<A: Arithmetic, const D: usize>(
         system: &System<'_, A, D>,
-        sound_speed: f64,
+        bin_width: f64,
         speed_quantum: f64,
     ) -> Self {
-        let bin_width = sound_speed / (6.0 * BINS as f64);
         let mut counts = [0; BINS];
         let mut beyond = 0;
         let mut sum = 0i128;
-        for v in &*system.state.velocity {
+        for v in system.particles.velocity() {
             let v2 = v.iter().fold(0i128, |sum, v| {
                 let v = i128::from(v.whole_quanta());
                 sum + v * v
@@ -61,7 +60,7 @@ impl SpeedHistogram {
                 beyond += 1;
             }
         }
-        let n = system.state.len().max(1) as f64;
+        let n = system.particles.len().max(1) as f64;
         Self {
             dimension: D,
             bin_width,

@@ -2,8 +2,8 @@
 
 use super::StateEquation;
 use crate::integrator::Integrator;
+use crate::model::SetupError;
 use crate::number::Scale;
-use thiserror::Error;
 
 /// Attraction by a fixed mass: a = -GM x/(|x|² + s²)^(3/2), x measured from the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,27 +99,6 @@ pub struct Parameters<const D: usize> {
     pub extent: [f64; D],
     /// Most buckets for the fluid's cells, and for the walls' cells.
     pub max_buckets: usize,
-}
-
-/// Parameters that no model can be built from.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-pub enum SetupError {
-    /// A parameter is not a finite number in its range.
-    #[error("{name} = {value} is out of range")]
-    Parameter {
-        /// Which.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// The kernel at r = 0 weighs more than one density term may.
-    #[error(
-        "the support radius {support_radius} m is too small for the mass of a particle: m W(0) is out of range"
-    )]
-    Support {
-        /// h, m.
-        support_radius: f64,
-    },
 }
 
 impl<const D: usize> Parameters<D> {

@@ -1,0 +1,267 @@
+//! Models: what moves the particles.
+//!
+//! A model declares its fields, and its step as a list of [`Stage`]s. Every stage but one is an
+//! exact shear: it adds to one half of the state integers that depend on the other half alone, so
+//! its negative undoes it. First the integers are computed into the scratch ([`Model::prepare`]),
+//! then they are added ([`Model::apply`]); whoever knows that nothing has moved in between may add
+//! what was prepared a second time. The one that is not a shear, `Relax`, exists only for models
+//! that [`Dissipative`] wraps, and its type says that there is no way back.
+
+use crate::executor::Executor;
+use crate::fault::{Fault, FaultKind};
+use crate::fields::{Field, View};
+use crate::integrator::Stage;
+use crate::neighbours::Grid;
+use crate::number::{Arithmetic, Scale};
+use crate::system::System;
+use thiserror::Error;
+
+/// What reversing the velocities does to a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reversibility {
+    /// n steps, reversed, n steps: the first state, to the last bit.
+    BitExact,
+    /// A symmetric scheme whose sums are rounded differently on the way back.
+    UpToRounding,
+    /// The scheme itself is not symmetric in time.
+    Irreversible,
+    /// The scheme takes energy and information out of the flow: there is no way back at all.
+    Dissipative,
+}
+
+/// What can be measured of a particle, with its SI unit, as outputs and pictures name it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Measure {
+    /// Name, in words.
+    pub name: &'static str,
+    /// Unit; empty for a pure number.
+    pub unit: &'static str,
+}
+
+/// Most kinds of energy that a model may have.
+pub const MAX_ENERGIES: usize = 8;
+
+/// A scheme: what a particle consists of, how a system is set up, and its step.
+pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
+    /// State and scratch; the first two are [`POSITION_FIELD`] and [`VELOCITY_FIELD`].
+    ///
+    /// [`POSITION_FIELD`]: crate::fields::POSITION_FIELD
+    /// [`VELOCITY_FIELD`]: crate::fields::VELOCITY_FIELD
+    const FIELDS: &'static [Field];
+    /// Kinds of energy, in the order of [`Model::energies`]; the first is the kinetic one.
+    const ENERGIES: &'static [&'static str];
+    /// What is recorded and drawn of a particle besides position and velocity.
+    const COLUMNS: &'static [Measure];
+    /// Part of the type, so that whoever promises a way back can ask before promising. Reversing
+    /// the velocities is allowed for every model.
+    const REVERSIBILITY: Reversibility;
+
+    /// Units of the state.
+    fn scale(&self) -> Scale;
+    /// Mass of every particle, kg (per m of depth in 2D).
+    fn mass(&self) -> f64;
+    /// Upper end of the histogram of speeds, m/s.
+    fn fastest(&self) -> f64;
+    /// Geometry of the cells of particles and of walls.
+    fn grids(&self) -> [&Grid<D>; 2];
+
+    /// What follows from the walls alone; after they were placed, and before anything else.
+    ///
+    /// # Errors
+    /// As a step.
+    fn place_walls<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        system.number_walls();
+        system.locate_walls(exec);
+        Ok(())
+    }
+
+    /// Sets up those fields of the state that follow from the initial positions. Called once at
+    /// step 0; never again, neither on reversal nor on resumption.
+    ///
+    /// # Errors
+    /// As a step.
+    fn initialise<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        system.clock.initialised = true;
+        self.place_walls(system, exec)
+    }
+
+    /// Brings the scratch that diagnostics and pictures read up to date with the state. A prepared
+    /// kick leaves no less.
+    ///
+    /// # Errors
+    /// As a step.
+    fn refresh<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault>;
+
+    /// The stages of step number `step`, counted from 1.
+    fn stages(&self, step: u64) -> impl Iterator<Item = Stage>;
+
+    /// Computes what a stage will add.
+    ///
+    /// # Errors
+    /// The particle that left the number range or lost its density.
+    fn prepare<E: Executor>(
+        &self,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault>;
+
+    /// Adds what was prepared.
+    ///
+    /// # Errors
+    /// The particle that left the number range.
+    fn apply<E: Executor>(
+        &self,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault>;
+
+    /// One step.
+    ///
+    /// # Errors
+    /// The particle and the step that left the number range or lost its density. The state is
+    /// then somewhere within the step and of no use.
+    fn step<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
+        let step = system.clock.step + 1;
+        if !system.clock.initialised {
+            return Err(Fault::new(FaultKind::NotInitialised, 0).at_step(step));
+        }
+        for stage in self.stages(step) {
+            self.prepare(stage, system, exec)
+                .and_then(|()| self.apply(stage, system, exec))
+                .map_err(|fault| fault.at_step(step))?;
+        }
+        system.clock.step = step;
+        Ok(())
+    }
+
+    /// Energies by kind, J (per m of depth in 2D), of a system that was refreshed; the rest of the
+    /// array is zero. The kinetic one is measured by the caller.
+    ///
+    /// # Errors
+    /// A particle without an energy.
+    fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault>;
+
+    /// Number `column` of [`Model::COLUMNS`], in its unit, of the particle in this place of a
+    /// system that was refreshed.
+    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64;
+}
+
+/// A model with a third verb: `relax`, after some of its steps.
+pub trait Relax<A: Arithmetic, const D: usize>: Send + Sync + 'static {
+    /// The model between two relaxations.
+    type Scheme: Model<A, D>;
+    /// The model between two relaxations.
+    fn scheme(&self) -> &Self::Scheme;
+    /// Whether step number `step` ends with a relaxation.
+    fn is_due(&self, step: u64) -> bool;
+    /// Maps many states to one.
+    ///
+    /// # Errors
+    /// As a step.
+    fn relax<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault>;
+}
+
+/// A model that relaxes. There is no other way to have [`Relax::relax`] called, and this type's
+/// [`Model::REVERSIBILITY`] is [`Reversibility::Dissipative`].
+#[derive(Clone, Debug)]
+pub struct Dissipative<R>(pub R);
+
+impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<R> {
+    const FIELDS: &'static [Field] = R::Scheme::FIELDS;
+    const ENERGIES: &'static [&'static str] = R::Scheme::ENERGIES;
+    const COLUMNS: &'static [Measure] = R::Scheme::COLUMNS;
+    const REVERSIBILITY: Reversibility = Reversibility::Dissipative;
+
+    fn scale(&self) -> Scale {
+        self.0.scheme().scale()
+    }
+    fn mass(&self) -> f64 {
+        self.0.scheme().mass()
+    }
+    fn fastest(&self) -> f64 {
+        self.0.scheme().fastest()
+    }
+    fn grids(&self) -> [&Grid<D>; 2] {
+        self.0.scheme().grids()
+    }
+    fn place_walls<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        self.0.scheme().place_walls(system, exec)
+    }
+    fn initialise<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        self.0.scheme().initialise(system, exec)
+    }
+    fn refresh<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
+        self.0.scheme().refresh(system, exec)
+    }
+    fn stages(&self, step: u64) -> impl Iterator<Item = Stage> {
+        let relax = self.0.is_due(step).then_some(Stage::Relax);
+        self.0.scheme().stages(step).chain(relax)
+    }
+    fn prepare<E: Executor>(
+        &self,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        match stage {
+            Stage::Relax => Ok(()),
+            shear => self.0.scheme().prepare(shear, system, exec),
+        }
+    }
+    fn apply<E: Executor>(
+        &self,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        match stage {
+            Stage::Relax => self.0.relax(system, exec),
+            shear => self.0.scheme().apply(shear, system, exec),
+        }
+    }
+    fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault> {
+        self.0.scheme().energies(system)
+    }
+    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64 {
+        self.0.scheme().column(column, particles, place)
+    }
+}
+
+/// Parameters that no model can be built from.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum SetupError {
+    /// A parameter is not a finite number in its range.
+    #[error("{name} = {value} is out of range")]
+    Parameter {
+        /// Which.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The kernel at r = 0 weighs more than one density term may.
+    #[error(
+        "the support radius {support_radius} m is too small for the mass of a particle: m W(0) is out of range"
+    )]
+    Support {
+        /// h, m.
+        support_radius: f64,
+    },
+}

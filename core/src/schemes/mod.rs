@@ -1,0 +1,3 @@
+//! Models: a folder each.
+
+pub mod wcsph;

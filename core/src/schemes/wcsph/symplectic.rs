@@ -1,0 +1,165 @@
+//! The reversible scheme: density by summation, eq. (5), forces (1b), a symmetric integrator.
+//!
+//! ρ_a = Σ_b m W(r_ab) + C_a is a function of the positions, so the semi-discrete equations are
+//! canonical, H = Σ m (v²/2 + ε(ρ) + gravity) + walls, and every row of the integrator table is
+//! symplectic, symmetric and, in fixed point, exactly reversible. A step is the row:
+//!
+//! - kick(c):  ρ from the positions, J from ρ, v ← v + J
+//! - drift(c): x ← x + R(c dt v)
+//!
+//! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, sections 2 to 4.
+
+use super::energy;
+use super::parameters::Parameters;
+use super::updates::{Corrected, Fixed};
+use super::water::{IMPULSE, Water, fields};
+use crate::executor::Executor;
+use crate::fault::Fault;
+use crate::fields::{Field, Side, View};
+use crate::integrator::Stage;
+use crate::model::{MAX_ENERGIES, Measure, Model, Reversibility, SetupError};
+use crate::neighbours::Grid;
+use crate::number::{Arithmetic, Scale};
+use crate::shears::Kick;
+use crate::system::{Sum, System};
+
+/// Reversible weakly compressible SPH ("model A").
+#[derive(Clone, Debug)]
+pub struct Symplectic<A: Arithmetic, const D: usize> {
+    water: Water<A, D>,
+}
+
+impl<A: Arithmetic, const D: usize> Symplectic<A, D> {
+    /// The scheme with these parameters.
+    ///
+    /// # Errors
+    /// A number out of range.
+    pub fn new(parameters: Parameters<D>) -> Result<Self, SetupError> {
+        Water::new(parameters).map(|water| Self { water })
+    }
+
+    /// What the schemes share.
+    #[must_use]
+    pub fn water(&self) -> &Water<A, D> {
+        &self.water
+    }
+
+    /// ρ = m W(0) + Σ m W + C of fluid and dummies.
+    fn densities<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
+        self.water.locate(system, exec);
+        self.water.bare_densities(system, exec)?;
+        exec.points(&Corrected, &mut system.particles)?;
+        self.water.dummy_densities(system, exec)
+    }
+}
+
+impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
+    const FIELDS: &'static [Field] = &fields("density_constant");
+    const ENERGIES: &'static [&'static str] = energy::NAMES;
+    const COLUMNS: &'static [Measure] = energy::COLUMNS;
+    const REVERSIBILITY: Reversibility = if A::EXACT {
+        Reversibility::BitExact
+    } else {
+        Reversibility::UpToRounding
+    };
+
+    fn scale(&self) -> Scale {
+        self.water.parameters().scale
+    }
+    fn mass(&self) -> f64 {
+        self.water.parameters().mass
+    }
+    fn fastest(&self) -> f64 {
+        energy::fastest(&self.water)
+    }
+    fn grids(&self) -> [&Grid<D>; 2] {
+        self.water.grids()
+    }
+
+    /// Dummies do not move: what they add to each other's density is summed once.
+    fn place_walls<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        system.number_walls();
+        system.locate_walls(exec);
+        if !self.water.has_dummies(system) {
+            return Ok(());
+        }
+        exec.points(&self.water.own(), &mut system.walls)?;
+        let of_walls = Sum {
+            to: Side::Walls,
+            from: Side::Walls,
+            read: &[],
+            into: super::DENSITY,
+        };
+        system.sum(exec, &self.water.density_pass(), of_walls)?;
+        exec.points(&Fixed, &mut system.walls)
+    }
+
+    /// C_a ← ρ0 - Σ m W.
+    fn initialise<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        system.clock.initialised = true;
+        system
+            .walls
+            .words_mut(super::CONSTANT)
+            .fill_with(Default::default);
+        self.place_walls(system, exec)?;
+        self.water.locate(system, exec);
+        self.water.bare_densities(system, exec)?;
+        exec.points(&self.water.constants(), &mut system.particles)?;
+        if self.water.has_dummies(system) {
+            self.water.dummy_densities(system, exec)?;
+            exec.points(&self.water.constants(), &mut system.walls)?;
+            self.place_walls(system, exec)?;
+        }
+        Ok(())
+    }
+
+    fn refresh<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
+        self.densities(system, exec)
+    }
+
+    fn stages(&self, _: u64) -> impl Iterator<Item = Stage> {
+        self.water.parameters().integrator.stages.iter().copied()
+    }
+
+    fn prepare<E: Executor>(
+        &self,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        if let Stage::Kick(c) = stage {
+            self.densities(system, exec)?;
+            self.water.impulses(system, exec, c)?;
+        }
+        Ok(())
+    }
+
+    fn apply<E: Executor>(
+        &self,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        match stage {
+            Stage::Kick(_) => exec.points(&Kick::<IMPULSE>, &mut system.particles),
+            Stage::Drift(c) => exec.points(&self.water.drift(c), &mut system.particles),
+            Stage::Lift(_) | Stage::Relax => Ok(()),
+        }
+    }
+
+    fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault> {
+        energy::energies(&self.water, system)
+    }
+
+    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64 {
+        energy::column(&self.water, column, particles, place)
+    }
+}

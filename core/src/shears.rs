@@ -1,0 +1,74 @@
+//! The two shears that every model shares.
+//!
+//! - kick:  v ← v + J, with the impulses J that were prepared
+//! - drift: x ← x + R(c dt v)
+//!
+//! dt is the time step, c the entry of the integrator's table.
+
+use crate::fault::{Fault, FaultKind};
+use crate::fields::{POSITION, VELOCITY};
+use crate::number::{Arithmetic, Quantity, Scale};
+use crate::points::PointPass;
+
+/// v ← v + J, the impulses being field number `IMPULSE` of the model.
+#[derive(Clone, Copy, Debug)]
+pub struct Kick<const IMPULSE: usize>;
+
+impl<A: Arithmetic, const IMPULSE: usize, const D: usize> PointPass<A, D> for Kick<IMPULSE> {
+    type Read<T: Copy> = [T; D];
+    type Write<T: Copy> = [T; D];
+    const READ: &'static [usize] = &[IMPULSE];
+    const WRITE: &'static [usize] = &[VELOCITY];
+    #[inline(always)]
+    fn at(&self, id: u64, j: &[A::Word; D], v: &mut [A::Word; D]) -> Result<(), Fault> {
+        let mut inside = true;
+        for (v, j) in v.iter_mut().zip(j) {
+            *v = v.plus(*j);
+            inside &= v.in_range();
+        }
+        if inside {
+            Ok(())
+        } else {
+            Err(Fault::new(FaultKind::VelocityRange, id))
+        }
+    }
+}
+
+/// x ← x + R(c dt v).
+#[derive(Clone, Copy, Debug)]
+pub struct Drift {
+    /// Length quanta for one speed quantum.
+    factor: f64,
+}
+
+impl Drift {
+    /// A drift of `duration` seconds.
+    #[must_use]
+    pub fn new(duration: f64, scale: &Scale) -> Self {
+        let units = scale.speed_quantum() / scale.length_quantum();
+        Self {
+            factor: duration * units,
+        }
+    }
+}
+
+impl<A: Arithmetic, const D: usize> PointPass<A, D> for Drift {
+    type Read<T: Copy> = [T; D];
+    type Write<T: Copy> = [T; D];
+    const READ: &'static [usize] = &[VELOCITY];
+    const WRITE: &'static [usize] = &[POSITION];
+    #[inline(always)]
+    fn at(&self, id: u64, v: &[A::Word; D], x: &mut [A::Word; D]) -> Result<(), Fault> {
+        let mut inside = true;
+        for (x, v) in x.iter_mut().zip(v) {
+            let moved = x.add_rounded(v.quanta() * self.factor);
+            inside &= moved.is_some_and(Quantity::in_range);
+            *x = moved.unwrap_or(*x);
+        }
+        if inside {
+            Ok(())
+        } else {
+            Err(Fault::new(FaultKind::PositionRange, id))
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! A system: particles, walls, the cells in which both are found, and the clock.
+
+use crate::executor::Executor;
+use crate::fault::Fault;
+use crate::fields::{Column, Set, Side, View};
+use crate::neighbours::{Cells, CellsView, Grid};
+use crate::number::Arithmetic;
+use crate::pairs::{PairPass, Sources, Targets};
+
+/// Where a run stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Clock {
+    /// Whole steps taken over all legs.
+    pub step: u64,
+    /// Whether the model has set up the state: once, at step 0.
+    pub initialised: bool,
+}
+
+/// Everything a step works on.
+#[derive(Debug)]
+pub struct System<'a, A: Arithmetic, const D: usize> {
+    /// What moves.
+    pub particles: Set<'a, A, D>,
+    /// What stands still.
+    pub walls: Set<'a, A, D>,
+    /// Geometry of the particles' cells, and of the walls'.
+    pub grids: [&'a Grid<D>; 2],
+    /// The particles in cells.
+    pub cells: Cells<'a>,
+    /// The walls in cells.
+    pub wall_cells: Cells<'a>,
+    /// Step counter.
+    pub clock: &'a mut Clock,
+}
+
+/// A sum over pairs: who receives it, from whom, what is read of both, and where it is kept.
+#[derive(Clone, Copy, Debug)]
+pub struct Sum<'a> {
+    /// Who receives.
+    pub to: Side,
+    /// Who contributes.
+    pub from: Side,
+    /// Fields of both that the pass reads.
+    pub read: &'a [usize],
+    /// Field of the receivers that is added to.
+    pub into: usize,
+}
+
+/// Most fields that a pair pass reads.
+pub const MAX_READ: usize = 8;
+
+impl<A: Arithmetic, const D: usize> System<'_, A, D> {
+    /// Makes the particles findable at their present positions. With `for_walls`, walls will look
+    /// for them too.
+    pub fn locate<E: Executor>(&mut self, exec: &E, for_walls: bool) {
+        let (particles, cells) = (&mut self.particles, &mut self.cells);
+        exec.locate(self.grids[0], particles, cells, for_walls);
+    }
+
+    /// Makes the walls findable. They stand still: once is enough.
+    pub fn locate_walls<E: Executor>(&mut self, exec: &E) {
+        exec.locate_walls(self.grids[1], &self.walls, &mut self.wall_cells);
+    }
+
+    /// Adds the terms of a pass to a field.
+    ///
+    /// # Errors
+    /// As [`Executor::sum`].
+    pub fn sum<E: Executor, P: PairPass<D>>(
+        &mut self,
+        exec: &E,
+        pass: &P,
+        sum: Sum<'_>,
+    ) -> Result<(), Fault> {
+        let Self {
+            particles,
+            walls,
+            grids,
+            cells,
+            wall_cells,
+            ..
+        } = self;
+        let (receivers, others) = match sum.to {
+            Side::Particles => (particles, walls),
+            Side::Walls => (walls, particles),
+        };
+        let (of_receivers, [out]) = receivers.lend([sum.into]);
+        let of_sources = if sum.to == sum.from {
+            of_receivers
+        } else {
+            others.view()
+        };
+        let (grid, cells) = match sum.from {
+            Side::Particles => (grids[0], cells.view()),
+            Side::Walls => (grids[1], wall_cells.view()),
+        };
+        let read_of_receivers = columns(&of_receivers, sum.read, sum.to);
+        let read_of_sources = columns(&of_sources, sum.read, sum.from);
+        let to: Targets<'_, A, D> = Targets {
+            position: of_receivers.position(),
+            read: &read_of_receivers,
+            id: of_receivers.id,
+            same_set: sum.to == sum.from,
+        };
+        let from: Sources<'_, A, D> = Sources {
+            grid,
+            cells,
+            position: of_sources.position(),
+            read: &read_of_sources,
+        };
+        exec.sum(pass, &to, &from, out)
+    }
+
+    /// Cells and geometry of one side, and its particles: what a diagnostic gathers from.
+    #[must_use]
+    pub fn side(&self, side: Side) -> (View<'_, A, D>, CellsView<'_>, &Grid<D>) {
+        match side {
+            Side::Particles => (self.particles.view(), self.cells.view(), self.grids[0]),
+            Side::Walls => (self.walls.view(), self.wall_cells.view(), self.grids[1]),
+        }
+    }
+
+    /// Gives the walls their ids, which count on from the last particle's place.
+    pub fn number_walls(&mut self) {
+        let first = self.particles.len() as u64;
+        for (w, id) in self.walls.id.iter_mut().enumerate() {
+            *id = first + w as u64;
+        }
+    }
+
+    /// Turns time round; positions and so forces stay as they are.
+    pub fn reverse(&mut self) {
+        self.particles.reverse();
+        self.walls.reverse();
+    }
+}
+
+/// These fields of a set, as a pass reads them.
+#[must_use]
+pub fn columns<'a, A: Arithmetic, const D: usize>(
+    view: &View<'a, A, D>,
+    fields: &[usize],
+    side: Side,
+) -> heapless::Vec<Column<'a, A::Word>, MAX_READ> {
+    fields.iter().map(|&f| view.column(f, side)).collect()
+}
