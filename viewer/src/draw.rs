@@ -1,70 +1,21 @@
 //! The whole picture: one or two fields of particles, and a panel with time, arrow, plots and legend.
 //!
-//! The panel stands to the right of the fields or below them, where it leaves them more room. Sizes follow from
-//! the em, which follows from the size of the picture: readable from 320 x 240 to 4K.
+//! The panel stands to the right of the fields or below them, where it leaves them more room.
+//! Sizes follow from the em, which follows from the size of the picture: readable from 320 x 240
+//! to 4K.
 
-use crate::Rgb;
 use crate::camera::View;
-use crate::colour::{Colormap, Theme};
+use crate::colour::Rgb;
 use crate::colouring::Colouring;
 use crate::field;
 use crate::history::History;
 use crate::home::Home;
+pub use crate::look::Look;
 use crate::plot;
 use crate::raster::{Mask, Pixels, Raster, Rect};
 use crate::text::{self, Style, Weight};
 use loschmidt_runner::Points;
 use std::cell::RefCell;
-
-/// How points are drawn.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Look {
-    /// The camera.
-    pub view: View,
-    /// What the colours say.
-    pub colouring: Colouring,
-    /// The map from numbers to colours; `None` for the one that suits the colouring.
-    pub colormap: Option<Colormap>,
-    /// The numbers at its ends; `None` for [`Colouring::range`].
-    pub range: Option<[f64; 2]>,
-    /// Colours of everything else.
-    pub theme: Theme,
-    /// Radius of a disc, in radii of a disc (in 3D a ball) of the particle's volume.
-    pub disc: f64,
-    /// Title of the panel; `None` for the name of the scene.
-    pub title: Option<String>,
-    /// A line under the title.
-    pub caption: String,
-    /// How far the arrow of time has turned, 0 forward to 1 backward; `None` takes it from the points.
-    pub turn: Option<f64>,
-    /// Whether there is a panel.
-    pub panel: bool,
-}
-
-impl Default for Look {
-    fn default() -> Self {
-        Self {
-            view: View::default(),
-            colouring: Colouring::default(),
-            colormap: None,
-            range: None,
-            theme: Theme::default(),
-            disc: 1.2,
-            title: None,
-            caption: String::new(),
-            turn: None,
-            panel: true,
-        }
-    }
-}
-
-impl Look {
-    /// The colour map at work.
-    #[must_use]
-    pub fn colormap(&self) -> Colormap {
-        self.colormap.unwrap_or_else(|| self.colouring.colormap())
-    }
-}
 
 /// A run in the picture.
 #[derive(Clone, Copy, Debug)]
@@ -516,14 +467,7 @@ impl Parts<'_> {
 }
 
 /// A dial with one hand: to the right is forward, to the left backward.
-fn dial(
-    raster: &mut Pixels<'_>,
-    centre: [f64; 2],
-    radius: f64,
-    turn: f64,
-    ring: crate::Rgb,
-    colour: crate::Rgb,
-) {
+fn dial(raster: &mut Pixels<'_>, centre: [f64; 2], radius: f64, turn: f64, ring: Rgb, colour: Rgb) {
     let room = Rect::new(
         (centre[0] - radius - 2.0).max(0.0) as usize,
         (centre[1] - radius - 2.0).max(0.0) as usize,
