@@ -8,7 +8,7 @@ use loschmidt_reproduce::Target;
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::preset;
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options};
-use loschmidt_viewer::face::MOST_THREADS;
+use loschmidt_viewer::session::MOST_THREADS;
 use loschmidt_viewer::{Colormap, Colouring, Theme};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

@@ -12,9 +12,10 @@
 //! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
 //!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
 //! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
-//! 6. What faces share: [`face`], what they open, keep and say; [`keys`], the one table of keys;
-//!    [`track`], the ways out and back as they are while a user goes to and fro.
-//! 7. [`window`]: the desktop window.
+//! 6. [`session`]: a scene that a user watches and steers, whatever face shows it. [`keys`]: the
+//!    one table of keys. [`track`]: the ways out and back while a user goes to and fro.
+//! 7. [`window`]: the desktop window, a face of a session; the dashboard of `loschmidt tui` is the
+//!    other one.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
 //! every machine. Every thread owns the rows it draws, sums over particles are sums of whole numbers
@@ -28,7 +29,6 @@ pub mod colour;
 pub mod colouring;
 mod deep;
 pub mod draw;
-pub mod face;
 pub mod field;
 mod flat;
 pub mod history;
@@ -40,6 +40,7 @@ pub mod picture;
 pub mod plot;
 pub mod png;
 pub mod raster;
+pub mod session;
 mod stamp;
 pub mod text;
 pub mod track;

@@ -1,8 +1,8 @@
 //! The terminal: taken when the dashboard opens, and given back however it ends.
 
 use super::keys;
-use super::message::Message;
-use super::state::State;
+use super::message::DashboardMessage;
+use super::state::DashboardState;
 use loschmidt_runner::Deck;
 use ratatui::backend::CrosstermBackend;
 use ratatui::crossterm::event::{self, DisableMouseCapture, EnableMouseCapture};
@@ -82,7 +82,7 @@ impl Terminal {
     }
 
     /// Sends what the keyboard, the mouse and the window's frame say, from a thread of its own.
-    pub fn listen(&mut self, sender: Sender<Message>) {
+    pub fn listen(&mut self, sender: Sender<DashboardMessage>) {
         let gone = Arc::clone(&self.gone);
         let listen = move || {
             while !gone.load(Ordering::Relaxed) {
@@ -105,7 +105,7 @@ impl Terminal {
     }
 
     /// Draws the state, in one piece where the terminal can.
-    pub fn draw(&mut self, state: &State, deck: Option<&Deck>) -> std::io::Result<()> {
+    pub fn draw(&mut self, state: &DashboardState, deck: Option<&Deck>) -> std::io::Result<()> {
         let Some(screen) = &mut self.screen else {
             return Ok(());
         };

@@ -1,6 +1,7 @@
 //! Why there is no window.
 
 use crate::movie::MovieError;
+use crate::session::LostState;
 use loschmidt_runner::deck::OpeningError;
 use thiserror::Error;
 
@@ -30,7 +31,7 @@ pub enum WindowError {
     Beside(String),
     /// The state could not be kept.
     #[error("the state is lost: {0}")]
-    Lost(String),
+    Lost(#[from] LostState),
 }
 
 impl WindowError {

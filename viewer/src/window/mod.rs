@@ -1,11 +1,11 @@
 //! The desktop window: a run in both directions of time, drawn by the rasteriser.
 //!
 //! ```text
-//! keys, mouse, deck --Message--> update --> State --compose--> Raster -> window | PNG
-//!                                   \--Effect--> deck, files
+//! keys, mouse, deck --WindowMessage--> update --> WindowState --compose--> Raster -> window | PNG
+//!                                         \--Effect--> deck, files
 //! ```
 //!
-//! [`update`] changes the state and asks for effects; it knows neither clock nor file nor window.
+//! The window is a face of a [`Session`](crate::session): [`update`] adds what the mouse does.
 //! [`compose`] makes all pixels, those of the window and those of its PNG: they are the same. The
 //! simulation has a thread of its own, the runner's [`Deck`](loschmidt_runner::Deck); this one draws,
 //! at most 60 pictures a second, and never waits for a step. No GPU is used, and no library of
@@ -25,17 +25,16 @@ mod update;
 
 pub use compose::compose;
 pub use error::WindowError;
-pub use message::{Button, Effect, Message, Mouse};
+pub use message::WindowMessage;
 pub use places::Places;
-pub use state::{Drag, Other, Overlay, Stage, State, Ways};
+pub use state::WindowState;
 pub use update::update;
 
 use crate::colour::Theme;
 use crate::colouring::Colouring;
-use crate::draw::Look;
-use crate::face::MOST_THREADS;
-use crate::face::Request;
+use crate::look::Look;
 use crate::picture::Picture;
+use crate::session::{MOST_THREADS, Request};
 use app::{App, Wake};
 use clap::{Args, ValueEnum};
 use loschmidt_runner::Options;
@@ -154,7 +153,7 @@ pub fn run(
     }
     let event_loop = event_loop()?;
     let handles = (event_loop.create_proxy(), event_loop.owned_display_handle());
-    let state = State::new(arguments.size, 1.0, arguments.look(), picture);
+    let state = WindowState::new(arguments.size, 1.0, arguments.look(), picture);
     let mut app = App::new(state, options, handles, stop, arguments.log);
     app.open(request, opening);
     let ended = event_loop.run_app(&mut app);

@@ -1,9 +1,11 @@
 //! Where the parts of the window are: the picture above, and below it a strip with the bar of time.
 
-use super::state::{Stage, State};
-use crate::draw::{Layout, Look};
+use super::state::WindowState;
+use crate::draw::Layout;
 use crate::home::Home;
+use crate::look::Look;
 use crate::raster::Rect;
+use crate::session::StagedScene;
 
 /// The smallest window with a strip, pixels.
 const SMALLEST: (usize, usize) = (160, 120);
@@ -28,18 +30,16 @@ pub struct Places {
 impl Places {
     /// The places of a window; `None` as long as it shows nothing.
     #[must_use]
-    pub fn of(state: &State) -> Option<Self> {
-        state
-            .stage
-            .as_ref()
-            .map(|stage| Self::with(state, stage, state.size))
+    pub fn of(state: &WindowState) -> Option<Self> {
+        let stage = state.session.stage.as_ref()?;
+        Some(Self::with(state, stage, state.size))
     }
 
     /// The places in a window of this size, pixels.
     #[must_use]
-    pub fn with(state: &State, stage: &Stage, size: (usize, usize)) -> Self {
+    pub fn with(state: &WindowState, stage: &StagedScene, size: (usize, usize)) -> Self {
         let panes = 1 + usize::from(stage.other.is_some());
-        Self::sized(&stage.home, &state.look, panes, state.scale, size)
+        Self::sized(&stage.home, &state.session.look, panes, state.scale, size)
     }
 
     /// The places for so many players. `scale`: pixels that make one of a plain display.

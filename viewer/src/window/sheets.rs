@@ -3,9 +3,9 @@
 use super::places::Places;
 use super::strip::{alarm, count};
 use crate::colour::{Rgb, Theme};
-use crate::face::{List, Panel};
 use crate::keys;
 use crate::raster::{Pixels, Rect};
+use crate::session::{List, Panel};
 use crate::text::{self, Style, Weight};
 use loschmidt_runner::ArithmeticKind;
 use loschmidt_runner::deck::{Arrival, Meddling, Perturbation};

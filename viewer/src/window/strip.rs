@@ -1,12 +1,11 @@
 //! Below the picture: the bar of time, what the simulation does, and the keys that one needs most.
 
 use super::places::Places;
-use super::state::{Stage, State};
 use crate::colour::{Rgb, Theme};
-use crate::face::Tone;
 use crate::keys::{self, Action};
 use crate::plot::number;
 use crate::raster::{Mask, Pixels, Rect};
+use crate::session::{Session, StagedScene, Tone};
 use crate::text::{self, Style, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
@@ -16,22 +15,22 @@ pub fn alarm(theme: &Theme) -> Rgb {
 }
 
 /// Paints the strip.
-pub fn paint(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places) {
+pub fn paint(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, places: &Places) {
     if places.strip.height == 0 {
         return;
     }
-    let theme = &state.look.theme;
+    let theme = &session.look.theme;
     let rule = Rect {
         height: 1,
         ..places.strip
     };
     raster.fill(rule, theme.rule, 255);
     bar(raster, stage, places, theme);
-    words(raster, state, stage, places);
+    words(raster, session, stage, places);
 }
 
 /// The bar of time: what was reached, the present, where a seek leads.
-fn bar(raster: &mut Pixels<'_>, stage: &Stage, places: &Places, theme: &Theme) {
+fn bar(raster: &mut Pixels<'_>, stage: &StagedScene, places: &Places, theme: &Theme) {
     let (bar, em, status) = (places.bar, places.em as f64, &stage.status);
     if bar.width < 8 {
         return;
@@ -87,8 +86,8 @@ fn bar(raster: &mut Pixels<'_>, stage: &Stage, places: &Places, theme: &Theme) {
 }
 
 /// Left what the simulation does, right a notice, or who is astray, or the keys.
-fn words(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places) {
-    let (theme, em) = (&state.look.theme, places.em);
+fn words(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, places: &Places) {
+    let (theme, em) = (&session.look.theme, places.em);
     let style = |colour, weight| Style {
         size: em * 6 / 7,
         weight,
@@ -106,7 +105,7 @@ fn words(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places)
         x = text::write(raster, &style, x, baseline, &text) + 0.8 * gap;
     }
     let room = end - x - gap;
-    let told = match (&state.notice, astray(stage, theme)) {
+    let told = match (&session.notice, astray(stage, theme)) {
         (Some(notice), _) => {
             let colour = match notice.tone {
                 Tone::Done => theme.second,
@@ -131,7 +130,7 @@ fn words(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places)
 type Piece = (String, Rgb, Weight);
 
 /// What the simulation does.
-fn doing(stage: &Stage, theme: &Theme) -> Vec<Piece> {
+fn doing(stage: &StagedScene, theme: &Theme) -> Vec<Piece> {
     let status = &stage.status;
     let dt = stage.opened.scene.time_step();
     let state = if let Some(seek) = status.seek {
@@ -185,7 +184,7 @@ fn doing(stage: &Stage, theme: &Theme) -> Vec<Piece> {
 }
 
 /// On the way back: who is not on the way home.
-fn astray(stage: &Stage, theme: &Theme) -> Option<(String, Rgb)> {
+fn astray(stage: &StagedScene, theme: &Theme) -> Option<(String, Rgb)> {
     let status = &stage.status;
     let total = count(stage.points.len() as u64);
     let back = status.arrow == Arrow::Backward || status.seek.is_some();
@@ -210,7 +209,7 @@ fn astray(stage: &Stage, theme: &Theme) -> Option<(String, Rgb)> {
 }
 
 /// The keys that one needs most, as many as `fits` finds room for.
-fn hints(stage: &Stage, fits: impl Fn(&str) -> bool) -> String {
+fn hints(stage: &StagedScene, fits: impl Fn(&str) -> bool) -> String {
     let play = if stage.status.playing && !stage.status.at_start {
         "pause"
     } else {

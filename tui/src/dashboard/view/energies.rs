@@ -1,12 +1,12 @@
 //! Energies: the numbers now, and the curves.
 
-use super::super::state::Stage;
 use super::ink::Ink;
 use super::numbers::{energy_unit, error, fixed};
 use super::plot::{Curve, Plot};
 use super::{Piece, width};
 use loschmidt_runner::run::Row;
 use loschmidt_viewer::Rgb;
+use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
@@ -15,7 +15,7 @@ use ratatui::style::Modifier;
 type Part = (Rgb, fn(&Row) -> f64);
 
 /// Draws the energies.
-pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     if area.height < 3 {
         return;
     }
@@ -119,7 +119,14 @@ fn flow(groups: &[Vec<Piece>], area: Rect, buf: &mut Buffer) -> u16 {
     (row + 1).min(most)
 }
 
-fn draw(stage: &Stage, scale: f64, parts: &[Part; 5], area: Rect, buf: &mut Buffer, ink: &Ink) {
+fn draw(
+    stage: &StagedScene,
+    scale: f64,
+    parts: &[Part; 5],
+    area: Rect,
+    buf: &mut Buffer,
+    ink: &Ink,
+) {
     let rows = || stage.track.out().iter().chain(stage.track.back());
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
     for row in rows() {

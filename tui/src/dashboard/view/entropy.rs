@@ -1,17 +1,17 @@
 //! Reduced Boltzmann entropy, with its equilibrium values.
 
-use super::super::state::Stage;
 use super::ink::Ink;
 use super::numbers::fixed;
 use super::plot::{Curve, Plot};
 use super::{Piece, write};
 use loschmidt_runner::run::Row;
+use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
 /// Draws the entropy.
-pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     if area.height < 3 {
         return;
     }

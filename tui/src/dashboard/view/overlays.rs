@@ -2,7 +2,7 @@
 
 use super::ink::Ink;
 use super::{Piece, width};
-use loschmidt_viewer::face::{List, Panel};
+use loschmidt_viewer::session::{List, Panel};
 use loschmidt_viewer::{Rgb, keys};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;

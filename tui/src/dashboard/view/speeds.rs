@@ -1,11 +1,11 @@
 //! The speed histogram with the fitted Maxwell–Boltzmann curve and its temperature.
 
-use super::super::state::Stage;
 use super::dots::Dots;
 use super::ink::{Ink, colour};
 use super::numbers::short;
 use super::{Piece, width, write};
 use loschmidt_core::diagnostics::{BINS, SpeedHistogram};
+use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
@@ -13,7 +13,7 @@ use ratatui::layout::Rect;
 const EIGHTHS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
 /// Draws the histogram.
-pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let Some(moment) = &stage.moment else { return };
     if area.height < 4 || area.width < 16 {
         return;
