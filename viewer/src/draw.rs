@@ -1,4 +1,5 @@
-//! The whole picture: one or two fields of particles, and a panel with time, arrow, plots and legend.
+//! The whole picture: one or two fields of particles, and a panel with time, arrow, plots and
+//! legend.
 //!
 //! The panel stands to the right of the fields or below them, where it leaves them more room.
 //! Sizes follow from the em, which follows from the size of the picture: readable from 320 x 240
@@ -13,7 +14,7 @@ use crate::home::Home;
 pub use crate::look::Look;
 use crate::plot;
 use crate::raster::{Mask, Pixels, Raster, Rect};
-use crate::text::{self, Style, Weight};
+use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::Points;
 use std::cell::RefCell;
 
@@ -45,7 +46,7 @@ impl<'a> Pane<'a> {
 
 /// Where the parts of a picture are.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Layout {
+pub struct PictureLayout {
     /// The particles, one rectangle per pane.
     pub fields: Vec<Rect>,
     /// Plots and text; `None` without a panel.
@@ -59,7 +60,7 @@ pub struct Layout {
 /// The smallest picture with a panel, pixels.
 const SMALLEST: (usize, usize) = (200, 150);
 
-impl Layout {
+impl PictureLayout {
     /// The layout of a picture of `width` times `height` pixels with so many panes.
     #[must_use]
     pub fn new(home: &Home, look: &Look, panes: usize, width: usize, height: usize) -> Self {
@@ -129,7 +130,7 @@ pub fn draw_on(
     look: &Look,
     height: usize,
 ) {
-    let layout = Layout::new(home, look, panes.len(), raster.width(), height);
+    let layout = PictureLayout::new(home, look, panes.len(), raster.width(), height);
     for (pane, &rect) in panes.iter().zip(&layout.fields) {
         let own = pane.colouring.map(|colouring| Look {
             colouring: colouring.clone(),
@@ -166,7 +167,7 @@ pub fn draw_on(
 
 /// The name of a run in the upper corner of its field.
 fn label(raster: &mut Pixels<'_>, rect: Rect, text: &str, look: &Look, em: usize) {
-    let style = Style {
+    let style = TextStyle {
         size: em,
         weight: Weight::SemiBold,
         colour: look.theme.text,
@@ -274,8 +275,8 @@ impl Parts<'_> {
         )
     }
 
-    fn style(&self, size: usize) -> Style {
-        Style {
+    fn style(&self, size: usize) -> TextStyle {
+        TextStyle {
             size,
             weight: Weight::Medium,
             colour: self.look.theme.text,
@@ -358,7 +359,7 @@ impl Parts<'_> {
     fn title(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let em = self.em;
         let title = self.look.title.as_deref().unwrap_or(&self.home.name);
-        let style = Style {
+        let style = TextStyle {
             weight: Weight::SemiBold,
             ..self.style(em * 6 / 5)
         };
@@ -366,7 +367,7 @@ impl Parts<'_> {
         let mut y = rect.y + em * 6 / 5;
         text::write(raster, &style, rect.x as f64, y as i64, &title);
         if !self.look.caption.is_empty() {
-            let style = Style {
+            let style = TextStyle {
                 colour: self.look.theme.faint,
                 ..self.style(self.small())
             };
@@ -396,14 +397,14 @@ impl Parts<'_> {
         dial(raster, centre, radius, turn, theme.rule, colour);
         let x = rect.x as f64 + 2.0 * radius + 0.7 * self.em as f64;
         let middle = centre[1] as i64;
-        let big = Style {
+        let big = TextStyle {
             weight: Weight::SemiBold,
             ..self.style(self.em * 10 / 7)
         };
         // A state a hair before home is at home.
         let time = format!("{:.3}", points.time).replace("-0.000", "0.000");
         text::write(raster, &big, x, middle, &format!("{time} s"));
-        let small = Style {
+        let small = TextStyle {
             colour,
             ..self.style(self.small())
         };
@@ -452,7 +453,7 @@ impl Parts<'_> {
             .look
             .range
             .unwrap_or_else(|| colouring.range(self.home));
-        let faint = Style {
+        let faint = TextStyle {
             colour: self.look.theme.faint,
             ..style
         };

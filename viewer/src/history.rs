@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A moment of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct HistoryPoint {
     /// Steps taken over both legs.
     pub step: u64,
     /// Physical time, s: falls on the way back.
@@ -26,7 +26,7 @@ pub struct Point {
     pub equilibrium: Option<f64>,
 }
 
-impl Point {
+impl HistoryPoint {
     /// The sum of the energies, J.
     #[must_use]
     pub fn total(&self) -> f64 {
@@ -34,7 +34,7 @@ impl Point {
     }
 }
 
-impl From<&Row> for Point {
+impl From<&Row> for HistoryPoint {
     fn from(row: &Row) -> Self {
         Self {
             step: row.step,
@@ -53,9 +53,9 @@ impl From<&Row> for Point {
 /// The moments of a run so far, in the order they were lived through.
 #[derive(Clone, Debug)]
 pub struct History {
-    points: Vec<Point>,
+    points: Vec<HistoryPoint>,
     span: f64,
-    /// Of all histories, only equal ones have the same.
+    /// Histories with the same number are equal.
     version: u64,
 }
 
@@ -98,7 +98,7 @@ impl History {
     }
 
     /// Adds a moment.
-    pub fn push(&mut self, point: Point) {
+    pub fn push(&mut self, point: HistoryPoint) {
         self.span = self.span.max(point.time);
         self.points.push(point);
         self.version = new_version();
@@ -111,7 +111,7 @@ impl History {
 
     /// The moments.
     #[must_use]
-    pub fn points(&self) -> &[Point] {
+    pub fn points(&self) -> &[HistoryPoint] {
         &self.points
     }
 

@@ -18,8 +18,9 @@
 //!    other one.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
-//! every machine. Every thread owns the rows it draws, sums over particles are sums of whole numbers
-//! or in the order of the ids, and of the functions beyond `+ - * / sqrt` only those of `libm` are used.
+//! every machine. Every thread owns the rows it draws, sums over particles are sums of whole
+//! numbers or in the order of the ids, and of the functions beyond `+ - * / sqrt` only those of
+//! `libm` are used.
 
 #![forbid(unsafe_code)]
 
@@ -52,7 +53,7 @@ pub use colour::{Colormap, Rgb, Theme};
 pub use colouring::Colouring;
 pub use draw::{Pane, draw, draw_on};
 pub use field::field;
-pub use history::{History, Point};
+pub use history::{History, HistoryPoint};
 pub use home::Home;
 pub use keys::{Action, Key};
 pub use look::Look;

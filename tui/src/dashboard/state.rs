@@ -3,17 +3,17 @@
 use loschmidt_viewer::Look;
 use loschmidt_viewer::session::{Face, Session};
 
-/// How many colours the terminal has.
+/// How many colours the terminal can show.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Depth {
-    /// All of them.
+    /// All colours of 24 bits.
     #[default]
     True,
-    /// The 256 of the cube.
+    /// The 256 of a fixed table.
     Indexed,
-    /// The 16 of old.
+    /// The 16 that every terminal has.
     Basic,
-    /// None are wanted.
+    /// None: the user wants no colours.
     None,
 }
 

@@ -32,7 +32,7 @@ pub fn is_terminal() -> bool {
     std::io::stdin().is_terminal() && stdout().is_terminal() && !dumb
 }
 
-/// The terminal in our hands.
+/// The terminal while the dashboard has it.
 pub struct Terminal {
     /// `None` once the terminal is given back.
     screen: Option<Screen>,
@@ -122,8 +122,8 @@ impl Terminal {
 impl Drop for Terminal {
     fn drop(&mut self) {
         self.gone.store(true, Ordering::Relaxed);
-        // Where the terminal has gone, reading from it may never end: the thread is left to its fate
-        // then, which is the end of the program.
+        // Where the terminal has gone, reading from it may never end: the thread is then left
+        // alone, and ends with the program.
         let end = Instant::now() + 6 * LOOK_UP;
         if let Some(listener) = self.listener.take() {
             while !listener.is_finished() && Instant::now() < end {
@@ -140,7 +140,7 @@ impl Drop for Terminal {
     }
 }
 
-/// Gives the terminal back; what cannot be done about a terminal that has gone is not done.
+/// Gives the terminal back. Errors mean that it has gone, and are left out.
 fn restore() {
     let _ = disable_raw_mode();
     let _ = execute!(

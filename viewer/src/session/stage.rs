@@ -4,7 +4,6 @@ use crate::colour::Rgb;
 use crate::home::Home;
 use crate::picture::Picture;
 use crate::track::Track;
-use loschmidt_core::Fault;
 use loschmidt_runner::deck::{Beside, Moment, Opened, Perturbation, Status};
 use loschmidt_runner::run::Row;
 use loschmidt_runner::{Arrow, Points};
@@ -17,8 +16,6 @@ pub struct OtherPlayer {
     pub points: Points,
     /// Its energies and entropies.
     pub track: Track,
-    /// Why it goes no further.
-    pub ended: Option<Fault>,
 }
 
 /// A scene that is set up and shown.
@@ -64,7 +61,6 @@ impl StagedScene {
             other: beside.then(|| OtherPlayer {
                 points: points.clone(),
                 track: Track::new(home.span),
-                ended: None,
             }),
             points,
             tint: tint.map(|picture| picture.tint(&home).into()),
@@ -129,7 +125,7 @@ impl StagedScene {
         match beside {
             Beside::Picture(points) => other.points = *points,
             Beside::Row { row, travel } => other.track.push(*row, travel),
-            Beside::Ended(fault) => other.ended = Some(fault),
+            Beside::Ended(_) => {}
         }
     }
 }

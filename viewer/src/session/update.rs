@@ -289,7 +289,7 @@ fn commands(stage: &mut StagedScene, action: Action) -> Vec<Command> {
         Action::ScrubBack => scrub(stage, -1),
         Action::ScrubOn => scrub(stage, 1),
         Action::Cancel => Command::Cancel,
-        // The one in the middle of the lattice order.
+        // The particle in the middle of the list, which is inside the fluid.
         Action::Flip => Command::Flip(stage.points.len() as u64 / 2),
         Action::Switch => Command::Switch(match status.arithmetic {
             ArithmeticKind::Fixed => ArithmeticKind::Float,

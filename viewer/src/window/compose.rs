@@ -8,7 +8,7 @@ use crate::draw::{Pane, draw_on};
 use crate::look::Look;
 use crate::raster::{Pixels, Raster, Rect};
 use crate::session::{Overlay, Session, StagedScene};
-use crate::text::{self, Style, Weight};
+use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
 /// The pixels of a window of `width` times `height` pixels: a function of the state alone.
@@ -87,7 +87,7 @@ fn waiting(raster: &mut Pixels<'_>, session: &Session) {
     let (width, height) = (raster.width(), raster.height());
     raster.fill(raster.rect(), theme.background, 255);
     if session.overlay == Overlay::None {
-        let style = Style {
+        let style = TextStyle {
             size: (height / 30).clamp(8, 64),
             weight: Weight::Medium,
             colour: theme.faint,

@@ -44,8 +44,8 @@ impl WindowError {
         }
     }
 
-    /// What went wrong on the way to a display, from its description. `set`: whether the environment
-    /// names a display.
+    /// What went wrong on the way to a display, from its description. `set`: whether the
+    /// environment names a display.
     pub(super) fn of_display(description: &str, set: bool) -> Self {
         match (library(description), set) {
             (Some(library), _) => Self::Library(library),
@@ -82,8 +82,8 @@ mod tests {
 
     #[test]
     fn a_missing_library_is_named() {
-        let loader = "OpenError { kind: Library, detail: \"opening library failed (libXcursor.so.1: \
-                      cannot open shared object file: No such file or directory)\" }";
+        let loader = "OpenError { kind: Library, detail: \"opening library failed \
+                      (libXcursor.so.1: cannot open shared object file: No such file or directory)\" }";
         assert!(said(loader, true).contains("the library libXcursor.so.1,"));
         let panic = "Library libxkbcommon-x11.so could not be loaded.";
         assert!(said(panic, true).contains("the library libxkbcommon-x11.so,"));

@@ -1,7 +1,7 @@
 //! Where the parts of the window are: the picture above, and below it a strip with the bar of time.
 
 use super::state::WindowState;
-use crate::draw::Layout;
+use crate::draw::PictureLayout;
 use crate::home::Home;
 use crate::look::Look;
 use crate::raster::Rect;
@@ -51,7 +51,7 @@ impl Places {
         scale: f64,
         (width, height): (usize, usize),
     ) -> Self {
-        let plain = Layout::new(home, look, 1, width, height).em;
+        let plain = PictureLayout::new(home, look, 1, width, height).em;
         // Readable on a display of many pixels, however small the window.
         let em = plain.max((11.0 * scale) as usize).min(height / 8);
         let high = if width < SMALLEST.0 || height < SMALLEST.1 {
@@ -60,7 +60,7 @@ impl Places {
             9 * em / 2
         };
         let picture = Rect::new(0, 0, width, height - high);
-        let layout = Layout::new(home, look, panes, picture.width, picture.height);
+        let layout = PictureLayout::new(home, look, panes, picture.width, picture.height);
         let ends = (5 * em).min(width / 4);
         Self {
             picture,

@@ -6,10 +6,10 @@ use crate::keys::{self, Action};
 use crate::plot::number;
 use crate::raster::{Mask, Pixels, Rect};
 use crate::session::{Session, StagedScene, Tone};
-use crate::text::{self, Style, Weight};
+use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
-/// Of what is not as it should be.
+/// The colour of what is not as it should be.
 pub fn alarm(theme: &Theme) -> Rgb {
     theme.backward
 }
@@ -72,7 +72,7 @@ fn bar(raster: &mut Pixels<'_>, stage: &StagedScene, places: &Places, theme: &Th
     }
     let here = at(status.position);
     paint(theme.text, 255, &|m| m.line(here, here, 0.8 * em));
-    let faint = Style {
+    let faint = TextStyle {
         size: places.em * 6 / 7,
         weight: Weight::Medium,
         colour: theme.faint,
@@ -85,10 +85,11 @@ fn bar(raster: &mut Pixels<'_>, stage: &StagedScene, places: &Places, theme: &Th
     text::write(raster, &faint, right, below, &format!("{} s", number(end)));
 }
 
-/// Left what the simulation does, right a notice, or who is astray, or the keys.
+/// On the left what the simulation does; on the right a notice, or how many particles are astray,
+/// or the keys.
 fn words(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, places: &Places) {
     let (theme, em) = (&session.look.theme, places.em);
-    let style = |colour, weight| Style {
+    let style = |colour, weight| TextStyle {
         size: em * 6 / 7,
         weight,
         colour,
@@ -127,10 +128,10 @@ fn words(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, places
     }
 }
 
-type Piece = (String, Rgb, Weight);
+type ColouredText = (String, Rgb, Weight);
 
-/// What the simulation does.
-fn doing(stage: &StagedScene, theme: &Theme) -> Vec<Piece> {
+/// What the simulation does, in pieces from left to right.
+fn doing(stage: &StagedScene, theme: &Theme) -> Vec<ColouredText> {
     let status = &stage.status;
     let dt = stage.opened.scene.time_step();
     let state = if let Some(seek) = status.seek {
@@ -183,7 +184,7 @@ fn doing(stage: &StagedScene, theme: &Theme) -> Vec<Piece> {
     pieces
 }
 
-/// On the way back: who is not on the way home.
+/// On the way back: how many particles are not on their way home.
 fn astray(stage: &StagedScene, theme: &Theme) -> Option<(String, Rgb)> {
     let status = &stage.status;
     let total = count(stage.points.len() as u64);

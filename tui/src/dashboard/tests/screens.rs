@@ -1,5 +1,5 @@
-//! Whole screens at three sizes. Below the characters stands a hash of all colours, so that a picture
-//! of the fluid is compared pixel by pixel.
+//! Whole screens at three sizes. Below the characters stands a hash of all colours, so that a
+//! picture of the fluid is compared pixel by pixel.
 
 use super::{Bench, screen, text};
 use crate::dashboard::state::{DashboardState, Depth};
@@ -34,7 +34,10 @@ fn assert_screens(name: &str, state: &mut DashboardState) {
         state.size = size;
         let buffer = screen(state);
         let shown = format!("{}colours {}\n", text(&buffer), colours(&buffer));
-        insta::with_settings!({ snapshot_path => "../snapshots", prepend_module_to_snapshot => false }, {
+        let mut settings = insta::Settings::clone_current();
+        settings.set_snapshot_path("../snapshots");
+        settings.set_prepend_module_to_snapshot(false);
+        settings.bind(|| {
             insta::assert_snapshot!(format!("{name}-{}x{}", size.0, size.1), shown);
         });
     }

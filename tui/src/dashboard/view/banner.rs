@@ -2,7 +2,7 @@
 
 use super::ink::Ink;
 use super::numbers::{count, short};
-use super::overlays::{Line, sheet};
+use super::overlays::{StyledLine, sheet};
 use loschmidt_runner::ArithmeticKind;
 use loschmidt_runner::deck::{Arrival, Meddling, Perturbation};
 use ratatui::buffer::Buffer;
@@ -29,7 +29,7 @@ pub fn render(arrival: &Arrival, field: Rect, whole: Rect, buf: &mut Buffer, ink
     sheet("", &lines, Some(colour), area, buf, ink);
 }
 
-fn digests(arrival: &Arrival, ink: &Ink) -> [Line; 2] {
+fn digests(arrival: &Arrival, ink: &Ink) -> [StyledLine; 2] {
     let line =
         |name: &str, digest: String| vec![(format!("{name}  "), ink.faint()), (digest, ink.text())];
     [
@@ -41,7 +41,7 @@ fn digests(arrival: &Arrival, ink: &Ink) -> [Line; 2] {
     ]
 }
 
-fn returned(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
+fn returned(arrival: &Arrival, ink: &Ink) -> Vec<StyledLine> {
     let strong = ink
         .of_colour(ink.success_colour())
         .add_modifier(Modifier::BOLD);
@@ -63,7 +63,7 @@ fn returned(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
     lines
 }
 
-fn missed(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
+fn missed(arrival: &Arrival, ink: &Ink) -> Vec<StyledLine> {
     let c = &arrival.comparison;
     let particles = if c.astray == 1 {
         "particle"

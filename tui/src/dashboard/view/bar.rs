@@ -107,7 +107,7 @@ fn shortened(text: &str, room: usize) -> String {
     }
 }
 
-/// On the way back: who is not on the way home.
+/// On the way back: how many particles are not on their way home.
 fn astray(stage: &StagedScene, ink: &Ink) -> Vec<Piece> {
     let status = &stage.status;
     let total = count(stage.points.len() as u64);

@@ -2,7 +2,7 @@
 
 use super::ink::Ink;
 use super::numbers::{energy_unit, error, fixed};
-use super::plot::{Curve, Plot};
+use super::plot::{DotCurve, DotPlot};
 use super::{Piece, width};
 use loschmidt_runner::run::Row;
 use loschmidt_viewer::Rgb;
@@ -142,16 +142,16 @@ fn draw(
         .iter()
         .map(|(colour, value)| (*colour, move |row: &Row| Some(value(row) / scale)))
         .collect();
-    let curves: Vec<Curve<'_>> = values
+    let curves: Vec<DotCurve<'_>> = values
         .iter()
-        .map(|(colour, value)| Curve {
+        .map(|(colour, value)| DotCurve {
             colour: *colour,
             value,
             back: None,
             reference: false,
         })
         .collect();
-    Plot {
+    DotPlot {
         track: &stage.track,
         curves: &curves,
         range: [low, high + 0.04 * (high - low)],

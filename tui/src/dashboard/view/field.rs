@@ -1,4 +1,5 @@
-//! The fluid, from the shared rasteriser: two pixels to a cell, or eight dots where colours are few.
+//! The fluid, from the shared rasteriser: two pixels to a cell, or eight dots where colours are
+//! few.
 
 use super::super::state::Depth;
 use super::ink::{Ink, colour};

@@ -56,8 +56,8 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     buf.set_string(x, axes.bottom(), end, ink.faint());
 }
 
-/// Densities and midpoints of the bins up to the fastest particles that can be seen: the axis ends at
-/// a quarter, a half or all of the bins.
+/// Densities and midpoints of the bins up to the fastest particles that can be seen: the axis ends
+/// at a quarter, a half or all of the bins.
 fn bins_shown(histogram: &SpeedHistogram, fit: Option<f64>) -> Vec<(f64, f64)> {
     let total: u64 = histogram.counts.iter().map(|&c| u64::from(c)).sum();
     let mut slower = 0;
