@@ -291,6 +291,14 @@ pub fn of_window() -> Vec<Binding> {
     all
 }
 
+/// The first key of a table that does this, for people.
+#[must_use]
+pub fn key_of(table: &[Binding], action: Action) -> Option<String> {
+    let mut pairs = table.iter().flat_map(|binding| binding.keys);
+    let found = pairs.find(|(_, does)| *does == action);
+    found.map(|(key, _)| key.to_string())
+}
+
 /// What a key does in the window.
 #[must_use]
 pub fn window_action(key: Key) -> Option<Action> {

@@ -22,6 +22,7 @@ mod stage;
 mod state;
 mod update;
 mod view;
+mod words;
 
 pub use host::{Host, LostState, new_picture};
 pub use kept::Kept;
@@ -34,3 +35,4 @@ pub use request::{Answer, MOST_THREADS, Request};
 pub use stage::{OtherPlayer, StagedScene};
 pub use state::{Face, Overlay, Session};
 pub use update::update;
+pub use words::{because, count};

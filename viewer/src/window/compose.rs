@@ -7,7 +7,7 @@ use crate::colour::Rgb;
 use crate::draw::{Pane, draw_on};
 use crate::look::Look;
 use crate::raster::{Pixels, Raster, Rect};
-use crate::session::{Overlay, Session, StagedScene};
+use crate::session::{Overlay, Session, StagedScene, count};
 use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
@@ -73,7 +73,7 @@ fn picture(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, plac
 
 /// The look with what follows from the state.
 fn look(session: &Session, stage: &StagedScene) -> Look {
-    let particles = strip::count(stage.points.len() as u64);
+    let particles = count(stage.points.len() as u64);
     Look {
         caption: format!("{particles} particles"),
         turn: Some(f64::from(u8::from(stage.arrow() == Arrow::Backward))),

@@ -1,14 +1,14 @@
 //! What lies over the rest: the keys, the arrival at the start, errors.
 
 use super::places::Places;
-use super::strip::{alarm, count};
+use super::strip::alarm;
 use crate::colour::{Rgb, Theme};
 use crate::keys;
 use crate::raster::{Pixels, Rect};
-use crate::session::{List, Panel};
+use crate::session::{List, Panel, because, count};
 use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::ArithmeticKind;
-use loschmidt_runner::deck::{Arrival, Meddling, Perturbation};
+use loschmidt_runner::deck::Arrival;
 
 /// A piece of a line: where it begins, in ems from the left of the sheet; what it says, and how.
 struct SheetText {
@@ -295,20 +295,4 @@ fn missed(arrival: &Arrival, theme: &Theme) -> Vec<SheetLine> {
     let keys = "any key goes on";
     lines.push(vec![SheetText::new(0.0, keys, theme.faint, Weight::Medium)]);
     lines
-}
-
-fn because(meddling: &Meddling) -> String {
-    let time = meddling.time;
-    match meddling.what {
-        Perturbation::Flipped(particle) => {
-            format!("one bit of particle {particle} was flipped at t = {time:.4} s")
-        }
-        Perturbation::Switched(kind) => {
-            let name = match kind {
-                ArithmeticKind::Fixed => "fixed",
-                ArithmeticKind::Float => "floating",
-            };
-            format!("the arithmetic became {name} point at t = {time:.4} s")
-        }
-    }
 }

@@ -5,7 +5,7 @@ use crate::colour::{Rgb, Theme};
 use crate::keys::{self, Action};
 use crate::plot::number;
 use crate::raster::{Mask, Pixels, Rect};
-use crate::session::{Session, StagedScene, Tone};
+use crate::session::{Session, StagedScene, Tone, count};
 use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
@@ -224,9 +224,12 @@ fn hints(stage: &StagedScene, fits: impl Fn(&str) -> bool) -> String {
         (Action::Colour, "colour"),
         (Action::Quit, "quit"),
     ];
+    let table = keys::of_window();
     let mut line = String::new();
     for (action, words) in hints {
-        let Some(key) = key_of(action) else { continue };
+        let Some(key) = keys::key_of(&table, action) else {
+            continue;
+        };
         let longer = if line.is_empty() {
             format!("{key} {words}")
         } else {
@@ -238,26 +241,4 @@ fn hints(stage: &StagedScene, fits: impl Fn(&str) -> bool) -> String {
         line = longer;
     }
     line
-}
-
-/// The first key of an action.
-fn key_of(action: Action) -> Option<String> {
-    let all = keys::of_window();
-    let mut pairs = all.iter().flat_map(|binding| binding.keys);
-    pairs
-        .find(|(_, a)| *a == action)
-        .map(|(key, _)| key.to_string())
-}
-
-/// A number with commas.
-pub fn count(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -4,7 +4,8 @@ use super::ink::Ink;
 use super::numbers::{count, short};
 use super::overlays::{StyledLine, sheet};
 use loschmidt_runner::ArithmeticKind;
-use loschmidt_runner::deck::{Arrival, Meddling, Perturbation};
+use loschmidt_runner::deck::Arrival;
+use loschmidt_viewer::session::because;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
@@ -94,20 +95,4 @@ fn missed(arrival: &Arrival, ink: &Ink) -> Vec<StyledLine> {
     lines.extend(digests(arrival, ink));
     lines.push(vec![("any key goes on".to_owned(), ink.faint())]);
     lines
-}
-
-fn because(meddling: &Meddling) -> String {
-    let time = meddling.time;
-    match meddling.what {
-        Perturbation::Flipped(particle) => {
-            format!("one bit of particle {particle} was flipped at t = {time:.4} s")
-        }
-        Perturbation::Switched(kind) => {
-            let name = match kind {
-                ArithmeticKind::Fixed => "fixed",
-                ArithmeticKind::Float => "floating",
-            };
-            format!("the arithmetic became {name} point at t = {time:.4} s")
-        }
-    }
 }

@@ -4,9 +4,9 @@ use super::ink::Ink;
 use super::numbers::{count, short};
 use super::{Areas, Piece, width, write, write_right};
 use loschmidt_runner::Arrow;
-use loschmidt_viewer::Action;
 use loschmidt_viewer::session::StagedScene;
 use loschmidt_viewer::session::{Notice, Tone};
+use loschmidt_viewer::{Action, keys};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
@@ -156,7 +156,10 @@ pub fn hints(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
         "play"
     };
     let pieces = HINTS.map(|(actions, words)| {
-        let keys: Vec<String> = actions.iter().filter_map(|a| key_of(*a)).collect();
+        let keys: Vec<String> = actions
+            .iter()
+            .filter_map(|a| keys::key_of(keys::TABLE, *a))
+            .collect();
         [
             (format!(" {}", keys.join(" ")), ink.bold()),
             (
@@ -185,13 +188,4 @@ pub fn hints(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
             rest = Rect::new(end, area.y, area.right() - end, 1);
         }
     }
-}
-
-/// The first key of an action.
-fn key_of(action: Action) -> Option<String> {
-    let table = loschmidt_viewer::keys::TABLE;
-    let keys = table.iter().flat_map(|binding| binding.keys);
-    keys.clone()
-        .find(|(_, a)| *a == action)
-        .map(|(key, _)| key.to_string())
 }
