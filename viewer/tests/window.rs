@@ -106,6 +106,42 @@ fn what_is_under_the_mouse_stays_there_when_the_wheel_turns() {
 }
 
 #[test]
+fn what_a_drag_wants_outlasts_a_status_and_what_a_key_wants_does_not() {
+    let mut state = at_forty();
+    let wanted = |state: &WindowState| state.session.stage.as_ref().expect("a scene").wanted;
+    let status = |state: &WindowState| {
+        let stage = state.session.stage.as_ref().expect("a scene");
+        Message::Report(1, Box::new(Report::Status(stage.status.clone())))
+    };
+    update(&mut state, Message::Key(Key::PageDown));
+    assert!(wanted(&state).is_some());
+    let heard = status(&state);
+    update(&mut state, heard);
+    assert_eq!(wanted(&state), None);
+    let bar = Places::of(&state).expect("places").bar;
+    let at = [(bar.x + bar.width / 2) as f64, bar.y as f64];
+    let press = Mouse::Press(Button::Left);
+    update(&mut state, WindowMessage::Mouse(press, at));
+    let heard = status(&state);
+    update(&mut state, heard);
+    assert!(wanted(&state).is_some());
+    update(&mut state, WindowMessage::Mouse(Mouse::Release, at));
+    assert_eq!(wanted(&state), None);
+}
+
+#[test]
+fn a_pace_key_that_is_held_adds_up() {
+    let mut state = at_forty();
+    let pace = |state: &WindowState| state.session.stage.as_ref().expect("a scene").status.pace;
+    let before = pace(&state);
+    // Six paces to a decade, and nothing heard of in between.
+    for _ in 0..6 {
+        update(&mut state, Message::Key(Key::Char(']')));
+    }
+    assert!((pace(&state) / before / 10.0 - 1.0).abs() < 1e-9);
+}
+
+#[test]
 fn help_theme_and_every_size_can_be_drawn() {
     let mut state = at_forty();
     update(&mut state, Message::Key(Key::Char('t')));

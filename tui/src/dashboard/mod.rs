@@ -38,7 +38,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 use terminal::Terminal;
 
-/// Between two looks at the signals.
+/// How often the signals are looked at.
 const LOOK_UP: Duration = Duration::from_millis(50);
 
 /// Size of a picture, pixels.
@@ -46,7 +46,7 @@ const PICTURE: (usize, usize) = (1920, 1080);
 
 /// Opens the dashboard; returns when its user leaves.
 pub fn run(request: Request, options: Options, stop: &AtomicBool) -> Result<ExitCode, Failure> {
-    // What cannot be read is said on the terminal as it was.
+    // An error in the scene is told before the dashboard takes the terminal.
     let opening = request.opening(options)?;
     let (sender, inbox) = channel();
     let mut terminal = Terminal::enter()?;
@@ -177,7 +177,7 @@ impl Dashboard {
     fn reporter(&self) -> impl Fn(u64, Report) + Send + use<> {
         let sender = self.sender.clone();
         move |number, report| {
-            // A dashboard that has gone needs nothing.
+            // Once the dashboard has ended nobody reads reports.
             let _ = sender.send(Message::Report(number, Box::new(report)).into());
         }
     }

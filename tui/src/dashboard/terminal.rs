@@ -133,7 +133,7 @@ impl Drop for Terminal {
         if let Some(mut screen) = self.screen.take()
             && screen.show_cursor().is_err()
         {
-            // It would complain to a standard error that has gone with the terminal, and panic.
+            // Dropping it would write an error to a terminal that has gone, and panic.
             std::mem::forget(screen);
         }
         restore();

@@ -29,7 +29,7 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy, OwnedDispl
 use winit::keyboard::ModifiersState;
 use winit::window::{Window, WindowId};
 
-/// Between two looks at the signals.
+/// How often the signals are looked at.
 const LOOK_UP: Duration = Duration::from_millis(50);
 
 /// Pictures a second that are asked for.
@@ -107,7 +107,7 @@ impl App {
     fn reporter(&self) -> impl Fn(u64, Report) + Send + use<> {
         let (sender, proxy) = (self.sender.clone(), self.proxy.clone());
         move |number, report| {
-            // A window that has gone needs nothing.
+            // Once the window has ended nobody reads reports.
             let _ = sender.send((number, report));
             let _ = proxy.send_event(Wake);
         }

@@ -23,7 +23,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// A log that is written, or only kept.
+    /// A log; nothing is written where it is not wanted.
     pub fn new(wanted: bool) -> Self {
         Self {
             wanted,

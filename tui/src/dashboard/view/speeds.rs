@@ -40,7 +40,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let histogram = &moment.histogram;
     let shown = bins_shown(histogram, fit);
     let largest = shown.iter().fold(0.0_f64, |m, &(f, _)| m.max(f));
-    // The first bin of a fluid at rest holds all of it; it may leave the picture.
+    // Heights are divided by it.
     let top = largest.max(f64::MIN_POSITIVE);
     bars(&shown, top, axes, buf, ink);
     if let Some(t) = fit {
@@ -57,7 +57,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
 }
 
 /// Densities and midpoints of the bins up to the fastest particles that can be seen: the axis ends
-/// at a quarter, a half or all of the bins.
+/// after one, two or three fifths of the bins, or after all of them.
 fn bins_shown(histogram: &SpeedHistogram, fit: Option<f64>) -> Vec<(f64, f64)> {
     let total: u64 = histogram.counts.iter().map(|&c| u64::from(c)).sum();
     let mut slower = 0;
