@@ -8,15 +8,16 @@ use loschmidt_reproduce::Target;
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::preset;
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options};
-use loschmidt_viewer::face::MOST_THREADS;
-use loschmidt_viewer::{Colormap, Colouring, Theme};
+use loschmidt_viewer::session::MOST_THREADS;
+use loschmidt_viewer::window::ThemeName;
+use loschmidt_viewer::{Colormap, Colouring};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 /// Fluids that run backwards: smoothed particle hydrodynamics, reversible to the last bit.
 ///
-/// Without a command, the dam break of 5,000 particles: on a terminal in the dashboard, elsewhere it is run
-/// out and back.
+/// Without a command, the dam break of 5,000 particles: on a terminal in the dashboard, elsewhere
+/// it is run out and back.
 #[derive(Debug, Parser)]
 #[command(
     name = "loschmidt",
@@ -24,21 +25,22 @@ use std::path::PathBuf;
     after_help = "Exit codes: 0 all is well; 1 the run did not return exactly; 2 usage or scene; \
                   3 output; 4 the numbers ended; 130 interrupted, can be resumed."
 )]
-pub struct Arguments {
+pub struct ProgramArguments {
     /// What to do.
     #[command(subcommand)]
-    pub command: Option<Command>,
+    pub command: Option<ProgramCommand>,
 }
 
 /// What to do.
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub enum ProgramCommand {
     /// Run a scene out and, if it has a turnaround, back; compare the last state with the first
     Run(RunArguments),
-    /// Watch a scene or an earlier run in the dashboard, in both directions of time; ? shows the keys
+    /// Watch a scene or an earlier run in the dashboard, in both directions of time; ? shows the
+    /// keys
     Tui(TuiArguments),
     /// Watch a scene or an earlier run in a window, in both directions of time; ? shows the keys
-    View(loschmidt_viewer::window::Arguments),
+    View(loschmidt_viewer::window::WindowArguments),
     /// Go on with an interrupted run
     Resume(ResumeArguments),
     /// Make a movie of a scene or of a finished run: numbered pictures, GIF, MP4
@@ -47,7 +49,8 @@ pub enum Command {
     Scenes(ScenesArguments),
     /// Run the paper's figures and tables again: numbers beside the paper's, verdicts, a report
     Reproduce(ReproduceArguments),
-    /// Tell what a scene takes (particles, steps, memory, time) and whether its time step is small enough
+    /// Tell what a scene takes (particles, steps, memory, time) and whether its time step is small
+    /// enough
     Check(SceneArguments),
     /// Print the digest of a snapshot
     Digest {
@@ -66,8 +69,8 @@ pub enum Command {
 pub struct SceneArguments {
     /// A scene file, or the name of a scene of the catalogue
     pub scene: String,
-    /// Override a key of the scene, for example particle_spacing=0.01 or region.0.shape.circle.radius=1;
-    /// an empty value removes the key; may be repeated
+    /// Override a key of the scene, for example particle_spacing=0.01 or
+    /// region.0.shape.circle.radius=1; an empty value removes the key; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Overrides with a name, taken before those of --set
@@ -78,8 +81,8 @@ pub struct SceneArguments {
 /// Names of the presets.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum Preset {
-    /// At most 1e-4 of the energy released is lost or gained on the dam break: PEFRL at twice the usual
-    /// time step, twice the force evaluations
+    /// At most 1e-4 of the energy released is lost or gained on the dam break: PEFRL at twice the
+    /// usual time step, twice the force evaluations
     Accurate,
 }
 
@@ -98,14 +101,15 @@ impl SceneArguments {
 /// Arguments of `reproduce`.
 #[derive(Args, Debug)]
 pub struct ReproduceArguments {
-    /// What to reproduce: all, or any of fig1 … fig6, table2 (with Fig. 7), kepler, claims, echo, work
+    /// What to reproduce: all, or any of fig1 … fig6, table2 (with Fig. 7), kepler, claims, echo,
+    /// work
     #[arg(default_value = "all", value_parser = target_names())]
     pub targets: Vec<String>,
     /// Coarser spacings: everything within five minutes on two processors
     #[arg(long)]
     pub quick: bool,
-    /// Directory of the report; what an earlier call has done there is kept [default: reproduction, or
-    /// reproduction-quick]
+    /// Directory of the report; what an earlier call has done there is kept [default: reproduction,
+    /// or reproduction-quick]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Work out again what is there already (runs of the same scene are kept all the same)
@@ -206,8 +210,8 @@ pub struct TuiArguments {
     /// [default: dam-break with 5,000 particles]
     #[arg(value_name = "SCENE|RUN")]
     pub scene: Option<String>,
-    /// Override a key of the scene, for example particle_spacing=0.01; an empty value removes the key; may
-    /// be repeated
+    /// Override a key of the scene, for example particle_spacing=0.01; an empty value removes the
+    /// key; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Threads of the executor [default: as many as there are processors]
@@ -228,14 +232,14 @@ pub struct ResumeArguments {
 /// Arguments of `movie`.
 #[derive(Args, Debug)]
 pub struct MovieArguments {
-    /// A scene file, the name of a scene of the catalogue, or the directory of a finished run, whose
-    /// frames are then drawn without simulating again
+    /// A scene file, the name of a scene of the catalogue, or the directory of a finished run,
+    /// whose frames are then drawn without simulating again
     pub scene: String,
     /// Override a key of the scene; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Directory of the pictures [default: movies/SCENE-N, the next free N]; an interrupted movie in it
-    /// is continued
+    /// Directory of the pictures [default: movies/SCENE-N, the next free N]; an interrupted movie
+    /// in it is continued
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace an earlier movie
@@ -248,7 +252,12 @@ pub struct MovieArguments {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: (usize, usize),
     /// Pictures per second
-    #[arg(long, value_name = "N", default_value = "30", value_parser = clap::value_parser!(u32).range(1..=100))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value = "30",
+        value_parser = clap::value_parser!(u32).range(1..=100)
+    )]
     pub fps: u32,
     /// Length of the movie; the pictures are evenly paced, home is the first and the last
     /// [default: 12, or what a finished run has frames for]
@@ -337,24 +346,6 @@ impl From<ColormapName> for Colormap {
             ColormapName::Magma => Self::Magma,
             ColormapName::Cividis => Self::Cividis,
             ColormapName::Coolwarm => Self::CoolWarm,
-        }
-    }
-}
-
-/// Names of the themes.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ThemeName {
-    /// Light on dark
-    Dark,
-    /// Dark on light
-    Light,
-}
-
-impl From<ThemeName> for Theme {
-    fn from(name: ThemeName) -> Self {
-        match name {
-            ThemeName::Dark => Self::DARK,
-            ThemeName::Light => Self::LIGHT,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Exit codes and the last words of a failure.
+//! Exit codes, and what a failure prints.
 
 use loschmidt_runner::RunError;
 use loschmidt_runner::output::{OutputError, SnapshotError};

@@ -13,7 +13,7 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = cli::Arguments::parse();
+    let arguments = cli::ProgramArguments::parse();
     match commands::execute(arguments) {
         Ok(code) => code,
         Err(failure) => failure.report(),

@@ -1,14 +1,14 @@
 //! The dashboard on a real terminal.
 
 use crate::program::terminal::start;
-use crate::program::{Place, loschmidt};
+use crate::program::{Workplace, loschmidt};
 
 const SMALL: [&str; 4] = ["tui", "dam-break", "--set", "particle_spacing=0.1"];
 const TRUE_COLOURS: [(&str, &str); 1] = [("COLORTERM", "truecolor")];
 
 #[test]
 fn time_is_turned_and_comes_back_bit_identical() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (120, 40));
     terminal.wait_for("dam-break");
     terminal.wait_for("forward");
@@ -26,7 +26,7 @@ fn time_is_turned_and_comes_back_bit_identical() {
 
 #[test]
 fn what_is_left_on_the_way_can_be_opened_again() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (120, 40));
     terminal.wait_for("step 2");
     terminal.type_keys(" ");
@@ -59,7 +59,7 @@ fn what_is_left_on_the_way_can_be_opened_again() {
 
 #[test]
 fn what_was_saved_is_not_touched_again() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (120, 40));
     terminal.wait_for("step 2");
     terminal.type_keys(" ");
@@ -83,7 +83,7 @@ fn what_was_saved_is_not_touched_again() {
 
 #[test]
 fn a_finished_run_is_opened_at_its_end() {
-    let place = Place::new();
+    let place = Workplace::new();
     place.run(
         "run",
         &[
@@ -115,7 +115,7 @@ fn a_finished_run_is_opened_at_its_end() {
 #[test]
 fn a_signal_gives_the_terminal_back_and_keeps_the_state() {
     for signal in ["TERM", "INT", "HUP"] {
-        let place = Place::new();
+        let place = Workplace::new();
         let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (100, 30));
         terminal.wait_for("step 3");
         terminal.signal(signal);
@@ -130,7 +130,7 @@ fn a_signal_gives_the_terminal_back_and_keeps_the_state() {
 
 #[test]
 fn a_terminal_that_goes_away_ends_the_program_and_the_state_is_kept() {
-    let place = Place::new();
+    let place = Workplace::new();
     let terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (100, 30));
     terminal.wait_for("step 3");
     assert_eq!(terminal.close(), 130);
@@ -139,7 +139,7 @@ fn a_terminal_that_goes_away_ends_the_program_and_the_state_is_kept() {
 
 #[test]
 fn the_bare_program_opens_the_dashboard_on_a_terminal() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut terminal = start(place.path(), &[], &[], (100, 30));
     terminal.wait_for("5,000 particles");
     terminal.type_keys("\x1b[H");
@@ -149,7 +149,7 @@ fn the_bare_program_opens_the_dashboard_on_a_terminal() {
 
 #[test]
 fn without_colours_and_resized_it_still_plays() {
-    let place = Place::new();
+    let place = Workplace::new();
     let none = [("NO_COLOR", "1"), ("COLORTERM", "truecolor")];
     let mut terminal = start(place.path(), &SMALL, &none, (200, 60));
     terminal.wait_for("step 1");
@@ -170,7 +170,7 @@ fn without_colours_and_resized_it_still_plays() {
 
 #[test]
 fn a_picture_is_written_beside_and_never_over_another() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (120, 40));
     terminal.wait_for("forward");
     terminal.type_keys(" ");
@@ -191,7 +191,7 @@ fn a_picture_is_written_beside_and_never_over_another() {
 
 #[test]
 fn a_scene_with_a_mistake_is_refused_before_the_screen_is_taken() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut terminal = start(place.path(), &["tui", "dam-brake"], &[], (100, 30));
     terminal.wait_for("dam-break");
     assert_eq!(terminal.ended_and_restored(), 2);

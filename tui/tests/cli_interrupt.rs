@@ -2,7 +2,7 @@
 //! uninterrupted one leaves, byte for byte.
 #![cfg(unix)]
 
-use crate::program::{Ended, Place, end, signal, wait_for_lines};
+use crate::program::{Ended, Workplace, end, signal, wait_for_lines};
 use std::fs;
 
 /// 325 particles, 2500 steps out and 2500 back, 1000 rows: a second or two.
@@ -11,19 +11,19 @@ const SCENE: [&str; 3] = ["dam-break", "--set", "particle_spacing=0.08"];
 /// Rows on the way out and on the way back, of about 1000, at which a signal is sent.
 const LEGS: [usize; 2] = [150, 620];
 
-fn uninterrupted(place: &Place) {
+fn uninterrupted(place: &Workplace) {
     place.run("whole", &SCENE);
 }
 
 /// Starts a run in `broken` and ends it with a signal at a row.
-fn interrupted(place: &Place, work: &[&str], name: &str, row: usize) -> Ended {
+fn interrupted(place: &Workplace, work: &[&str], name: &str, row: usize) -> Ended {
     let mut arguments = vec!["run", "--json", "--quiet", "--out", "broken"];
     arguments.extend(SCENE);
     arguments.extend(work);
     interrupt(place, &arguments, name, row)
 }
 
-fn interrupt(place: &Place, arguments: &[&str], name: &str, row: usize) -> Ended {
+fn interrupt(place: &Workplace, arguments: &[&str], name: &str, row: usize) -> Ended {
     let child = place.start(arguments);
     wait_for_lines(&place.join("broken"), row);
     signal(&child, name);
@@ -36,7 +36,7 @@ fn assert_says_how_to_resume(ended: Ended) {
 }
 
 /// Asserts in which leg the run of `broken` stands.
-fn assert_leg(place: &Place, leg: usize, status: &str) {
+fn assert_leg(place: &Workplace, leg: usize, status: &str) {
     let manifest = place.manifest("broken");
     assert_eq!(manifest["status"], status);
     let (step, turn) = (manifest["steps"].as_u64(), 2500);
@@ -44,7 +44,7 @@ fn assert_leg(place: &Place, leg: usize, status: &str) {
     assert_eq!(manifest["digest"]["turnaround"].is_null(), leg == 0);
 }
 
-fn assert_equals_the_uninterrupted(place: &Place, resume: &[&str]) {
+fn assert_equals_the_uninterrupted(place: &Workplace, resume: &[&str]) {
     let mut arguments = vec!["resume", "broken", "--json", "--quiet"];
     arguments.extend(resume);
     let ended = place.call(&arguments).with_code(0);
@@ -64,7 +64,7 @@ fn assert_equals_the_uninterrupted(place: &Place, resume: &[&str]) {
 
 #[test]
 fn sigint_and_sigterm_in_either_leg_change_nothing() {
-    let place = Place::new();
+    let place = Workplace::new();
     uninterrupted(&place);
     let ways: [(&str, usize, &[&str], &[&str]); 4] = [
         ("INT", 0, &["--threads", "2"], &["--executor", "serial"]),
@@ -88,7 +88,7 @@ fn sigint_and_sigterm_in_either_leg_change_nothing() {
 
 #[test]
 fn two_interruptions_change_nothing() {
-    let place = Place::new();
+    let place = Workplace::new();
     uninterrupted(&place);
     assert_says_how_to_resume(interrupted(&place, &[], "INT", LEGS[0]));
     assert_leg(&place, 0, "interrupted");
@@ -100,7 +100,7 @@ fn two_interruptions_change_nothing() {
 
 #[test]
 fn a_run_that_was_killed_goes_on_from_its_latest_snapshot() {
-    let place = Place::new();
+    let place = Workplace::new();
     uninterrupted(&place);
     for (leg, row) in LEGS.into_iter().enumerate() {
         let ended = interrupted(&place, &[], "KILL", row);
@@ -114,7 +114,7 @@ fn a_run_that_was_killed_goes_on_from_its_latest_snapshot() {
 
 #[test]
 fn an_impatient_second_signal_loses_nothing() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = vec!["run", "--quiet", "--out", "broken", "--executor", "serial"];
     arguments.extend(SCENE);
     let child = place.start(&arguments);
@@ -131,7 +131,7 @@ fn an_impatient_second_signal_loses_nothing() {
 
 #[test]
 fn a_directory_in_use_is_left_to_the_run_that_uses_it() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = vec!["run", "--quiet", "--out", "broken"];
     arguments.extend(SCENE);
     let child = place.start(&arguments);

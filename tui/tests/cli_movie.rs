@@ -1,6 +1,6 @@
 //! `movie`: pictures, GIF, what is refused, and an interruption.
 
-use crate::program::{Place, files_below};
+use crate::program::{Workplace, files_below};
 use std::fs;
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ fn hourglass() -> String {
 
 #[test]
 fn a_movie_is_pictures_and_a_gif_and_says_what_came_home() {
-    let place = Place::new();
+    let place = Workplace::new();
     let tint = hourglass();
     let movie = [
         "--tint",
@@ -79,7 +79,7 @@ fn a_movie_is_pictures_and_a_gif_and_says_what_came_home() {
 
 #[test]
 fn quiet_is_quiet() {
-    let place = Place::new();
+    let place = Workplace::new();
     let ended = place
         .call(&with(&["--seconds=0.2", "--quiet"]))
         .with_code(0);
@@ -91,7 +91,7 @@ fn quiet_is_quiet() {
 
 #[test]
 fn a_finished_run_gives_as_many_pictures_as_it_has_frames() {
-    let place = Place::new();
+    let place = Workplace::new();
     place.run(
         "run",
         &[&SMALL[1..6], &["--set", "output.frames=8"]].concat(),
@@ -118,7 +118,7 @@ fn a_finished_run_gives_as_many_pictures_as_it_has_frames() {
 
 #[test]
 fn what_cannot_be_drawn_is_refused() {
-    let place = Place::new();
+    let place = Workplace::new();
     fs::write(place.join("text.png"), "no picture").expect("a file");
     for (arguments, words) in [
         (&["--fps=0"][..], &["--fps", "1..=100"][..]),
@@ -153,7 +153,7 @@ fn what_cannot_be_drawn_is_refused() {
 #[test]
 fn an_interrupted_movie_goes_on_with_the_command_it_prints() {
     use crate::program::{end, signal, wait_for};
-    let place = Place::new();
+    let place = Workplace::new();
     let whole = with(&["--seconds=3", "--out=whole", "--quiet"]);
     place.call(&whole).with_code(0);
     let child = place.start(&with(&["--seconds=3", "--quiet"]));

@@ -1,6 +1,6 @@
 //! `reproduce`, and the presets: what is worked out, kept, refused and resumed.
 
-use crate::program::Place;
+use crate::program::Workplace;
 use std::fs;
 
 const FIG2: [&str; 4] = ["reproduce", "fig2", "--quick", "--out"];
@@ -11,7 +11,7 @@ fn fig2(out: &str) -> Vec<&str> {
 
 #[test]
 fn a_target_leaves_a_report_and_is_kept_and_another_report_is_not_put_over_it() {
-    let place = Place::new();
+    let place = Workplace::new();
     let first = place.call(&fig2("report")).with_code(0);
     for words in [
         "Fig. 2: the standard scheme gains energy",
@@ -56,7 +56,7 @@ fn a_target_leaves_a_report_and_is_kept_and_another_report_is_not_put_over_it() 
 
 #[test]
 fn a_directory_of_other_origin_is_refused_even_with_force() {
-    let place = Place::new();
+    let place = Workplace::new();
     fs::create_dir(place.join("thesis")).expect("a directory");
     fs::write(place.join("thesis/chapter.tex"), "mine").expect("a file");
     for more in [&[][..], &["--force"]] {
@@ -72,7 +72,7 @@ fn a_directory_of_other_origin_is_refused_even_with_force() {
 
 #[test]
 fn unknown_targets_and_presets_are_told_the_nearest_and_all() {
-    let place = Place::new();
+    let place = Workplace::new();
     place.call(&["reproduce", "fig22"]).refused(
         2,
         &["'fig22'", "similar value exists: 'fig2'", "table2", "echo"],
@@ -90,7 +90,7 @@ fn unknown_targets_and_presets_are_told_the_nearest_and_all() {
 
 #[test]
 fn help_lists_every_target_and_the_preset_with_what_it_keeps() {
-    let place = Place::new();
+    let place = Workplace::new();
     let help = place.call(&["reproduce", "--help"]).with_code(0).stdout;
     for name in [
         "all", "fig1", "fig2", "fig3", "fig4", "fig5", "fig6", "table2", "kepler", "claims",
@@ -106,7 +106,7 @@ fn help_lists_every_target_and_the_preset_with_what_it_keeps() {
 
 #[test]
 fn the_preset_is_a_set_of_overrides_that_later_ones_override() {
-    let place = Place::new();
+    let place = Workplace::new();
     let scene = ["particle_spacing=0.1", "turnaround=0.02"];
     let arguments = |more: &[&'static str]| {
         let mut all = vec!["dam-break", "--preset", "accurate"];
@@ -134,7 +134,7 @@ fn the_preset_is_a_set_of_overrides_that_later_ones_override() {
 #[test]
 fn an_interrupted_report_says_how_to_go_on_and_finds_what_an_uninterrupted_one_finds() {
     use crate::program::{end, signal, wait_for_lines};
-    let place = Place::new();
+    let place = Workplace::new();
     let whole = ["reproduce", "fig5", "--quick", "--quiet", "--out", "whole"];
     let whole = place.call(&whole).with_code(0);
     let child = place.start(&["reproduce", "fig5", "--quick", "--out", "broken"]);

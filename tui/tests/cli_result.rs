@@ -1,6 +1,6 @@
 //! The object that `--json` prints, the exit codes of a run, and where its files go.
 
-use crate::program::{Place, files_below};
+use crate::program::{Workplace, files_below};
 use serde_json::{Value, json};
 use std::fs;
 
@@ -78,7 +78,7 @@ fn assert_documented_keys(result: &Value) {
 
 #[test]
 fn the_result_has_the_documented_keys_and_stands_alone_on_standard_output() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = vec!["run", "--json", "--threads", "2", "--out", "a"];
     arguments.extend(SMALL);
     let ended = place.call(&arguments).with_code(0);
@@ -120,7 +120,7 @@ fn the_result_has_the_documented_keys_and_stands_alone_on_standard_output() {
 
 #[test]
 fn the_serial_executor_counts_as_one_thread() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = SMALL.to_vec();
     arguments.extend(["--executor", "serial", "--threads", "3"]);
     let result = place.run("a", &arguments);
@@ -130,7 +130,7 @@ fn the_serial_executor_counts_as_one_thread() {
 
 #[test]
 fn a_one_way_run_has_no_return_to_speak_of() {
-    let place = Place::new();
+    let place = Workplace::new();
     let result = place.run("a", &ONE_WAY);
     assert_documented_keys(&result);
     assert_eq!(result["steps"], 320);
@@ -156,7 +156,7 @@ fn a_one_way_run_has_no_return_to_speak_of() {
 
 #[test]
 fn half_a_way_back_is_no_return_but_has_a_turnaround() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = SMALL.to_vec();
     arguments.extend(["--set", "end=0.5"]);
     let result = place.run("a", &arguments);
@@ -180,7 +180,7 @@ fn half_a_way_back_is_no_return_but_has_a_turnaround() {
 
 #[test]
 fn floating_point_and_the_standard_scheme_do_not_return_and_exit_with_1() {
-    let place = Place::new();
+    let place = Workplace::new();
     let spacing = ["--set", "particle_spacing=0.04", "--set", "turnaround=0.8"];
     let mut arguments = vec!["run", "dam-break", "--json", "--quiet", "--out", "float"];
     arguments.extend(spacing);
@@ -204,7 +204,7 @@ fn floating_point_and_the_standard_scheme_do_not_return_and_exit_with_1() {
 
 #[test]
 fn numbers_that_end_exit_with_4_and_leave_the_last_good_state() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = vec!["run", "dam-break", "--json", "--quiet", "--out", "a"];
     for set in [
         "particle_spacing=0.2",
@@ -239,7 +239,7 @@ fn numbers_that_end_exit_with_4_and_leave_the_last_good_state() {
 
 #[test]
 fn without_json_the_end_is_a_table_and_a_sentence() {
-    let place = Place::new();
+    let place = Workplace::new();
     let call = |out, more: &[&str]| {
         let mut arguments = vec!["run", "--out", out];
         arguments.extend(SMALL);
@@ -272,7 +272,7 @@ fn without_json_the_end_is_a_table_and_a_sentence() {
 
 #[test]
 fn a_directory_that_exists_is_refused_and_left_alone() {
-    let place = Place::new();
+    let place = Workplace::new();
     place.run("a", &SMALL);
     let before = files_below(&place.join("a"));
     let mut arguments = vec!["run", "--json", "--out", "a"];
@@ -296,7 +296,7 @@ fn a_directory_that_exists_is_refused_and_left_alone() {
 
 #[test]
 fn force_replaces_a_run_and_touches_no_file_of_others() {
-    let place = Place::new();
+    let place = Workplace::new();
     place.run("fresh", &SMALL);
     // An earlier run that left more frames, and files that no run writes.
     let mut arguments = SMALL.to_vec();
@@ -329,7 +329,7 @@ fn force_replaces_a_run_and_touches_no_file_of_others() {
 
 #[test]
 fn force_touches_nothing_where_there_was_no_run() {
-    let place = Place::new();
+    let place = Workplace::new();
     fs::create_dir(place.join("lesson")).expect("a directory");
     for name in ["scene.toml", "series.csv"] {
         fs::write(place.join("lesson").join(name), "mine").expect("a file");
@@ -345,7 +345,7 @@ fn force_touches_nothing_where_there_was_no_run() {
 
 #[test]
 fn runs_are_numbered_where_no_directory_is_given() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = vec!["run", "--quiet"];
     arguments.extend(SMALL);
     for n in 1..=3 {
@@ -366,7 +366,7 @@ fn runs_are_numbered_where_no_directory_is_given() {
 
 #[test]
 fn output_that_cannot_be_written_exits_with_3() {
-    let place = Place::new();
+    let place = Workplace::new();
     fs::write(place.join("file"), "mine").expect("a file");
     let mut arguments = vec!["run", "--json", "--out", "file/a"];
     arguments.extend(SMALL);
@@ -380,7 +380,7 @@ fn output_that_cannot_be_written_exits_with_3() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_disk_that_fills_up_in_mid_run_exits_with_3() {
-    let place = Place::new();
+    let place = Workplace::new();
     // No file above 64 blocks of 512 bytes, and an error instead of a signal.
     let script = "trap '' XFSZ; ulimit -f 64; exec \"$0\" \"$@\"";
     let mut arguments = vec!["-c", script, env!("CARGO_BIN_EXE_loschmidt")];
@@ -397,7 +397,7 @@ fn a_disk_that_fills_up_in_mid_run_exits_with_3() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_standard_output_exits_with_3() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = vec!["run", "--json", "--quiet", "--out", "a"];
     arguments.extend(SMALL);
     let full = fs::OpenOptions::new().write(true).open("/dev/full");
@@ -413,7 +413,7 @@ fn a_full_standard_output_exits_with_3() {
 #[cfg(unix)]
 #[test]
 fn nobody_listening_to_the_progress_does_not_stop_a_run() {
-    let place = Place::new();
+    let place = Workplace::new();
     let mut arguments = vec!["run", "--json", "--out", "a"];
     arguments.extend(SMALL);
     let mut child = place.start(&arguments);

@@ -1,14 +1,14 @@
 //! What cannot be resumed is told, and left as it is.
 #![cfg(unix)]
 
-use crate::program::{Place, end, files_below, signal, wait_for_lines};
+use crate::program::{Workplace, end, files_below, signal, wait_for_lines};
 use std::fs;
 use std::path::Path;
 
 const SET: [&str; 3] = ["dam-break", "--set", "particle_spacing=0.1"];
 
 /// A run that was interrupted on its way back.
-fn broken(place: &Place, out: &str, more: &[&str]) {
+fn broken(place: &Workplace, out: &str, more: &[&str]) {
     let mut arguments = vec!["run", "--quiet", "--out", out];
     arguments.extend(SET);
     arguments.extend(more);
@@ -19,7 +19,7 @@ fn broken(place: &Place, out: &str, more: &[&str]) {
 }
 
 /// Asserts that the run is refused with these words, and afterwards is as it was.
-fn assert_refused(place: &Place, run: &str, words: &[&str]) {
+fn assert_refused(place: &Workplace, run: &str, words: &[&str]) {
     let before = files_below(&place.join(run));
     place.call(&["resume", run, "--json"]).refused(2, words);
     let after = files_below(&place.join(run));
@@ -41,7 +41,7 @@ fn change(path: &Path, change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
 
 #[test]
 fn what_is_no_run_is_refused() {
-    let place = Place::new();
+    let place = Workplace::new();
     place
         .call(&["resume", "missing"])
         .refused(2, &["missing is not the directory of a run"]);
@@ -58,7 +58,7 @@ fn what_is_no_run_is_refused() {
 
 #[test]
 fn a_finished_run_is_refused() {
-    let place = Place::new();
+    let place = Workplace::new();
     place.run(
         "a",
         &[
@@ -78,7 +78,7 @@ fn a_finished_run_is_refused() {
 
 #[test]
 fn a_damaged_or_missing_file_is_named_and_nothing_is_changed() {
-    let place = Place::new();
+    let place = Workplace::new();
     broken(&place, "a", &[]);
     for name in ["home", "turnaround", "latest"] {
         let name = format!("{name}.snapshot");
@@ -107,7 +107,7 @@ fn a_damaged_or_missing_file_is_named_and_nothing_is_changed() {
 
 #[test]
 fn a_series_cut_off_anywhere_is_refused() {
-    let place = Place::new();
+    let place = Workplace::new();
     broken(&place, "a", &[]);
     let series = place.join("a/series.csv");
     let whole = fs::read(&series).expect("a series");
@@ -144,7 +144,7 @@ fn a_series_cut_off_anywhere_is_refused() {
 
 #[test]
 fn snapshots_of_another_scene_or_arithmetic_are_refused() {
-    let place = Place::new();
+    let place = Workplace::new();
     broken(&place, "a", &[]);
     // The same particles under another time step; other particles; the same scene in floats.
     broken(&place, "slow", &["--set", "cfl=0.19"]);
@@ -168,7 +168,7 @@ fn snapshots_of_another_scene_or_arithmetic_are_refused() {
 
 #[test]
 fn a_snapshot_in_the_place_of_another_is_refused() {
-    let place = Place::new();
+    let place = Workplace::new();
     broken(&place, "a", &[]);
     let path = |name: &str| place.join("a/snapshots").join(format!("{name}.snapshot"));
     for (name, other) in [

@@ -1,6 +1,6 @@
 //! The other commands, and everything that is refused: exit code 2 and nothing on standard output.
 
-use crate::program::Place;
+use crate::program::Workplace;
 use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
@@ -38,7 +38,7 @@ const SHORT: [(&str, &[&str]); 6] = [
 
 #[test]
 fn the_catalogue_is_listed_with_its_sources() {
-    let place = Place::new();
+    let place = Workplace::new();
     let ended = place.call(&["scenes"]).with_code(0);
     for name in CATALOGUE {
         assert!(ended.stdout.lines().any(|line| line.starts_with(name)));
@@ -49,7 +49,7 @@ fn the_catalogue_is_listed_with_its_sources() {
 
 #[test]
 fn a_printed_scene_is_the_scene() {
-    let place = Place::new();
+    let place = Workplace::new();
     for (name, set) in SHORT {
         let set: Vec<&str> = set.iter().flat_map(|&s| ["--set", s]).collect();
         let mut arguments = vec![name];
@@ -77,7 +77,7 @@ fn a_printed_scene_is_the_scene() {
 
 #[test]
 fn check_tells_what_every_scene_of_the_catalogue_takes() {
-    let place = Place::new();
+    let place = Workplace::new();
     for name in CATALOGUE {
         let text = place.call(&["check", name]).with_code(0).stdout;
         for word in [
@@ -118,7 +118,7 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
 
 #[test]
 fn the_digest_of_a_snapshot_is_that_of_the_manifest() {
-    let place = Place::new();
+    let place = Workplace::new();
     for (n, (name, set)) in SHORT.into_iter().enumerate() {
         for arithmetic in ["fixed", "float"] {
             let out = format!("{name}-{arithmetic}");
@@ -151,7 +151,7 @@ fn the_digest_of_a_snapshot_is_that_of_the_manifest() {
 
 #[test]
 fn completions_for_every_shell() {
-    let place = Place::new();
+    let place = Workplace::new();
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let ended = place.call(&["completions", shell]).with_code(0);
         for word in ["loschmidt", "resume", "arithmetic"] {
@@ -164,7 +164,7 @@ fn completions_for_every_shell() {
 
 #[test]
 fn help_and_version_are_no_errors() {
-    let place = Place::new();
+    let place = Workplace::new();
     let help = place.call(&["--help"]).with_code(0);
     for word in [
         "run",
@@ -186,7 +186,7 @@ fn help_and_version_are_no_errors() {
 
 #[test]
 fn mistakes_on_the_command_line_are_told_and_exit_with_2() {
-    let place = Place::new();
+    let place = Workplace::new();
     fs::write(place.join("latin-1.toml"), b"name = \"\xfcber\"\n").expect("a file");
     fs::create_dir(place.join("folder.toml")).expect("a directory");
     let calls: [(&[&str], &[&str]); 15] = [
@@ -229,7 +229,7 @@ fn mistakes_on_the_command_line_are_told_and_exit_with_2() {
 
 #[test]
 fn what_is_no_snapshot_has_no_digest() {
-    let place = Place::new();
+    let place = Workplace::new();
     fs::write(place.join("a.snapshot"), "LSCHSNAP and then something else").expect("a file");
     place
         .call(&["digest", "a.snapshot"])
@@ -240,7 +240,7 @@ fn what_is_no_snapshot_has_no_digest() {
 
 #[test]
 fn a_scene_far_too_large_is_refused_before_anything_is_allocated() {
-    let place = Place::new();
+    let place = Workplace::new();
     for command in ["run", "check"] {
         let began = Instant::now();
         let call = [command, "dam-break", "--set", "particle_spacing=1e-6"];
@@ -268,7 +268,7 @@ mod interrupted {
 
     #[test]
     fn the_paper_s_own_dam_break_starts_within_2_gib_and_tells_how_long_it_takes() {
-        let place = Place::new();
+        let place = Workplace::new();
         let child = place.start(&["run", "dam-break", "--out", "a"]);
         // Two rows: 80 steps of 80,000 particles.
         wait_for_lines(&place.join("a"), 2);
@@ -282,7 +282,7 @@ mod interrupted {
 
     #[test]
     fn without_arguments_it_is_the_small_dam_break() {
-        let place = Place::new();
+        let place = Workplace::new();
         let child = place.start(&[]);
         let run = place.join("runs/dam-break-1");
         wait_for("a manifest", || run.join("manifest.json").exists());

@@ -4,9 +4,9 @@
 //!
 //!     cargo bench -p loschmidt-viewer --bench live [SPACING] [SECONDS]
 //!
-//! Four players of the same scene take turns of half a second, so that a busy machine is fair to all; the
-//! throughputs are those of all turns together, SECONDS (20) for each. The pictures are those of the window;
-//! what an X server does with them is not in it.
+//! Four players of the same scene take turns of half a second, so that a busy machine is fair to
+//! all; the throughputs are those of all turns together, SECONDS (20) for each. The pictures are
+//! those of the window; what an X server does with them is not in it.
 
 use loschmidt_runner::deck::{Command, Opening, Report, Wishes};
 use loschmidt_runner::run::{Plan, Row};
@@ -39,7 +39,7 @@ fn main() {
     for round in 0..rounds {
         let before = alone;
         alone += turn_of(&mut headless);
-        // Nobody always comes after the same one.
+        // Each round begins with another deck, so that none always follows the same one.
         let first = round % decks.len();
         for n in 0..decks.len() {
             let (deck, watch, sum) = &mut decks[(first + n) % 3];

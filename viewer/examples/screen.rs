@@ -1,5 +1,5 @@
-//! Compares the screen of an X server without a display (`Xvfb -fbdir`) with a PNG of the window, and
-//! the PNG with the particles as the rasteriser draws them in a run of its own.
+//! Compares the screen of an X server without a display (`Xvfb -fbdir`) with a PNG of the window,
+//! and the PNG with the particles as the rasteriser draws them in a run of its own.
 //!
 //!     cargo run --example screen -- SCREEN PNG [SCENE STEP [KEY=VALUE]...]
 //!

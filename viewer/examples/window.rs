@@ -5,8 +5,8 @@
 
 use loschmidt_runner::deck::{Command, Opening, Report, Wishes};
 use loschmidt_runner::{Deck, Options};
-use loschmidt_viewer::face::Request;
-use loschmidt_viewer::window::{Message, State, compose, update};
+use loschmidt_viewer::session::{Message, Request};
+use loschmidt_viewer::window::{WindowState, compose, update};
 use loschmidt_viewer::{Look, Picture, png};
 use std::error::Error;
 use std::fs::File;
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Request::default()
     };
     let tint = Picture::open(Path::new("examples/pictures/hourglass.png"))?;
-    let mut state = State::new((1280, 720), 1.0, Look::default(), Some(tint));
+    let mut state = WindowState::new((1280, 720), 1.0, Look::default(), Some(tint));
     let opening = Opening::of(&request.name, &request.set, Options::default())?;
     let (sender, inbox) = channel();
     let wishes = Wishes {
@@ -43,7 +43,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         if shot {
             deck.ready();
         }
-        let position = state.stage.as_ref().map_or(0, |stage| stage.points.step);
+        let position = state
+            .session
+            .stage
+            .as_ref()
+            .map_or(0, |stage| stage.points.step);
         if ended && !turned {
             turned = true;
             deck.send(Command::Turn);
@@ -52,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             break;
         }
     }
-    state.notice = None;
+    state.session.notice = None;
     let raster = compose(&state, state.size);
     png::write(&raster, BufWriter::new(File::create(path)?))?;
     Ok(())

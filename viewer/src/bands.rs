@@ -1,5 +1,6 @@
-//! Discs on pixels. The rows of a picture are cut into bands, of which every one is drawn by one thread; the
-//! discs come in pieces, of which every one is laid out by bands by one thread.
+//! Discs on pixels, by many threads. The discs are cut into batches: one thread sorts those of a
+//! batch by the bands that they lie on. The rows of a picture are cut into bands: one thread draws
+//! all discs of a band.
 
 use crate::raster::{Pixels, Rect};
 use rayon::prelude::*;
@@ -36,17 +37,17 @@ pub(crate) fn of_rows(row: i32, rows: i32, count: usize, mut put: impl FnMut(usi
 }
 
 /// Some discs by bands, in the order they came in; a disc on two bands is there twice.
-pub(crate) struct Piece<Disc> {
+pub(crate) struct DiscBatch<Disc> {
     pub bands: Vec<Vec<Disc>>,
 }
 
-impl<Disc> Default for Piece<Disc> {
+impl<Disc> Default for DiscBatch<Disc> {
     fn default() -> Self {
         Self { bands: Vec::new() }
     }
 }
 
-impl<Disc> Piece<Disc> {
+impl<Disc> DiscBatch<Disc> {
     /// Forgets the discs of an earlier picture, and takes those of one with so many bands.
     pub fn clear(&mut self, bands: usize) {
         self.bands.iter_mut().for_each(Vec::clear);
@@ -70,7 +71,7 @@ pub(crate) struct Canvas<'a> {
 }
 
 /// Where a disc meets a canvas: rows and columns of the canvas, and the first of both in the disc.
-pub(crate) struct Meeting {
+pub(crate) struct Overlap {
     pub rows: std::ops::Range<usize>,
     pub columns: std::ops::Range<usize>,
     pub disc_row: usize,
@@ -78,10 +79,10 @@ pub(crate) struct Meeting {
 }
 
 impl Canvas<'_> {
-    /// Meets the square of `size` pixels with its first column and row there, from the canvas's top
-    /// left.
+    /// What of a square of `size` pixels lies on the canvas. Its first column and row are counted
+    /// from the top left of the canvas.
     #[inline]
-    pub fn meet(&self, column: i32, row: i32, size: usize) -> Meeting {
+    pub fn meet(&self, column: i32, row: i32, size: usize) -> Overlap {
         let part = |first: i32, width: usize| {
             let from = first.clamp(0, width as i32);
             let to = (first + size as i32).clamp(from, width as i32);
@@ -89,7 +90,7 @@ impl Canvas<'_> {
         };
         let (rows, disc_row) = part(row, self.height);
         let (columns, disc_column) = part(column, self.width);
-        Meeting {
+        Overlap {
             rows,
             columns,
             disc_row,

@@ -1,9 +1,9 @@
 //! Where a point of the scene is on the screen.
 //!
-//! In the plane, x_screen = w/2 + s (x - x₀), y_screen = h/2 - s (y - y₀), with the scale s in pixels
-//! per m. In space a pinhole camera looks from a distance d at the centre c of the scene: with
-//! the coordinates (a, b, e) of x - c along its right, its up and towards it,
-//! x_screen = w/2 + f a/(d - e), y_screen = h/2 - f b/(d - e). With a [`View`] of zoom 1 and no pan the box
+//! In the plane, x_screen = w/2 + s (x - x₀), y_screen = h/2 - s (y - y₀), with the scale s in
+//! pixels per m. In space a pinhole camera looks from a distance d at the centre c of the scene:
+//! with the coordinates (a, b, e) of x - c along its right, its up and towards it, x_screen = w/2 +
+//! f a/(d - e), y_screen = h/2 - f b/(d - e). With a [`View`] of zoom 1 and no pan the box
 //! [`Home::shown`] fits into the rectangle.
 
 use crate::home::Home;
@@ -210,7 +210,8 @@ impl Projection {
         }
     }
 
-    /// In the plane: for either axis of the screen, the factor and the summand that take metres to pixels.
+    /// In the plane: for either axis of the screen, the factor and the summand that take metres to
+    /// pixels.
     pub(crate) fn along_axes(&self) -> [[f64; 2]; 2] {
         let [w, h] = self.middle;
         let scale = self.scale();

@@ -144,7 +144,7 @@ impl Colouring {
     }
 }
 
-/// The largest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is at most a hair
+/// The largest of 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is at most slightly
 /// above `x`; 1 for what is not positive.
 pub(crate) fn round_number(x: f64) -> f64 {
     if !(x > 0.0 && x.is_finite()) {
@@ -201,8 +201,8 @@ impl<'a> Painter<'a> {
         self.of(self.colouring.value(points, home, place))
     }
 
-    /// The colours of as many particles as `colours` has room for, from this place on. What is asked once
-    /// for all of them is not asked for each.
+    /// The colours of as many particles as `colours` has room for, from this place on. What is
+    /// asked once for all of them is not asked for each.
     #[inline(always)]
     pub fn colours(&self, points: &Points, home: &Home, first: usize, colours: &mut [Rgb]) {
         let list = match self.colouring {

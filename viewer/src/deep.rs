@@ -1,6 +1,6 @@
 //! Balls in space, one over the other.
 
-use crate::bands::{self, Canvas, Piece};
+use crate::bands::{self, Canvas, DiscBatch};
 use crate::colour::Rgb;
 use crate::stamp::{PARTS, Stamp};
 use std::cell::Cell;
@@ -20,7 +20,7 @@ pub(crate) struct Disc {
 
 impl Disc {
     /// Lays it out by bands.
-    pub fn lay(self, piece: &mut Piece<Self>, stamp: &Stamp) {
+    pub fn lay(self, piece: &mut DiscBatch<Self>, stamp: &Stamp) {
         let row = self.y.div_euclid(PARTS) - stamp.half;
         bands::of_rows(row, stamp.size() as i32, piece.bands.len(), |band| {
             piece.bands[band].push(self);
@@ -32,9 +32,9 @@ thread_local! {
     static SUMS: Cell<(Vec<u64>, Vec<u8>)> = const { Cell::new((Vec::new(), Vec::new())) };
 }
 
-/// Draws balls from the nearest to the farthest: a ball behind others costs a look at the pixels that they
-/// have covered.
-pub(crate) fn draw(canvas: &mut Canvas<'_>, pieces: &[Piece<Disc>], stamps: &[Stamp]) {
+/// Draws balls from the nearest to the farthest, so that a pixel that is fully covered is not mixed
+/// again.
+pub(crate) fn draw(canvas: &mut Canvas<'_>, pieces: &[DiscBatch<Disc>], stamps: &[Stamp]) {
     /// Bits of a channel in a sum; a sum of weights is at most 255, one of colours 255².
     const LANE: u32 = 21;
     let canvas_width = canvas.width;

@@ -1,70 +1,22 @@
-//! The whole picture: one or two fields of particles, and a panel with time, arrow, plots and legend.
+//! The whole picture: one or two fields of particles, and a panel with time, arrow, plots and
+//! legend.
 //!
-//! The panel stands to the right of the fields or below them, where it leaves them more room. Sizes follow from
-//! the em, which follows from the size of the picture: readable from 320 x 240 to 4K.
+//! The panel stands to the right of the fields or below them, where it leaves them more room.
+//! Sizes follow from the em, which follows from the size of the picture: readable from 320 x 240
+//! to 4K.
 
-use crate::Rgb;
 use crate::camera::View;
-use crate::colour::{Colormap, Theme};
+use crate::colour::Rgb;
 use crate::colouring::Colouring;
 use crate::field;
 use crate::history::History;
 use crate::home::Home;
+pub use crate::look::Look;
 use crate::plot;
 use crate::raster::{Mask, Pixels, Raster, Rect};
-use crate::text::{self, Style, Weight};
+use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::Points;
 use std::cell::RefCell;
-
-/// How points are drawn.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Look {
-    /// The camera.
-    pub view: View,
-    /// What the colours say.
-    pub colouring: Colouring,
-    /// The map from numbers to colours; `None` for the one that suits the colouring.
-    pub colormap: Option<Colormap>,
-    /// The numbers at its ends; `None` for [`Colouring::range`].
-    pub range: Option<[f64; 2]>,
-    /// Colours of everything else.
-    pub theme: Theme,
-    /// Radius of a disc, in radii of a disc (in 3D a ball) of the particle's volume.
-    pub disc: f64,
-    /// Title of the panel; `None` for the name of the scene.
-    pub title: Option<String>,
-    /// A line under the title.
-    pub caption: String,
-    /// How far the arrow of time has turned, 0 forward to 1 backward; `None` takes it from the points.
-    pub turn: Option<f64>,
-    /// Whether there is a panel.
-    pub panel: bool,
-}
-
-impl Default for Look {
-    fn default() -> Self {
-        Self {
-            view: View::default(),
-            colouring: Colouring::default(),
-            colormap: None,
-            range: None,
-            theme: Theme::default(),
-            disc: 1.2,
-            title: None,
-            caption: String::new(),
-            turn: None,
-            panel: true,
-        }
-    }
-}
-
-impl Look {
-    /// The colour map at work.
-    #[must_use]
-    pub fn colormap(&self) -> Colormap {
-        self.colormap.unwrap_or_else(|| self.colouring.colormap())
-    }
-}
 
 /// A run in the picture.
 #[derive(Clone, Copy, Debug)]
@@ -94,7 +46,7 @@ impl<'a> Pane<'a> {
 
 /// Where the parts of a picture are.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Layout {
+pub struct PictureLayout {
     /// The particles, one rectangle per pane.
     pub fields: Vec<Rect>,
     /// Plots and text; `None` without a panel.
@@ -108,7 +60,7 @@ pub struct Layout {
 /// The smallest picture with a panel, pixels.
 const SMALLEST: (usize, usize) = (200, 150);
 
-impl Layout {
+impl PictureLayout {
     /// The layout of a picture of `width` times `height` pixels with so many panes.
     #[must_use]
     pub fn new(home: &Home, look: &Look, panes: usize, width: usize, height: usize) -> Self {
@@ -178,7 +130,7 @@ pub fn draw_on(
     look: &Look,
     height: usize,
 ) {
-    let layout = Layout::new(home, look, panes.len(), raster.width(), height);
+    let layout = PictureLayout::new(home, look, panes.len(), raster.width(), height);
     for (pane, &rect) in panes.iter().zip(&layout.fields) {
         let own = pane.colouring.map(|colouring| Look {
             colouring: colouring.clone(),
@@ -215,7 +167,7 @@ pub fn draw_on(
 
 /// The name of a run in the upper corner of its field.
 fn label(raster: &mut Pixels<'_>, rect: Rect, text: &str, look: &Look, em: usize) {
-    let style = Style {
+    let style = TextStyle {
         size: em,
         weight: Weight::SemiBold,
         colour: look.theme.text,
@@ -323,8 +275,8 @@ impl Parts<'_> {
         )
     }
 
-    fn style(&self, size: usize) -> Style {
-        Style {
+    fn style(&self, size: usize) -> TextStyle {
+        TextStyle {
             size,
             weight: Weight::Medium,
             colour: self.look.theme.text,
@@ -407,7 +359,7 @@ impl Parts<'_> {
     fn title(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let em = self.em;
         let title = self.look.title.as_deref().unwrap_or(&self.home.name);
-        let style = Style {
+        let style = TextStyle {
             weight: Weight::SemiBold,
             ..self.style(em * 6 / 5)
         };
@@ -415,7 +367,7 @@ impl Parts<'_> {
         let mut y = rect.y + em * 6 / 5;
         text::write(raster, &style, rect.x as f64, y as i64, &title);
         if !self.look.caption.is_empty() {
-            let style = Style {
+            let style = TextStyle {
                 colour: self.look.theme.faint,
                 ..self.style(self.small())
             };
@@ -445,14 +397,14 @@ impl Parts<'_> {
         dial(raster, centre, radius, turn, theme.rule, colour);
         let x = rect.x as f64 + 2.0 * radius + 0.7 * self.em as f64;
         let middle = centre[1] as i64;
-        let big = Style {
+        let big = TextStyle {
             weight: Weight::SemiBold,
             ..self.style(self.em * 10 / 7)
         };
         // A state a hair before home is at home.
         let time = format!("{:.3}", points.time).replace("-0.000", "0.000");
         text::write(raster, &big, x, middle, &format!("{time} s"));
-        let small = Style {
+        let small = TextStyle {
             colour,
             ..self.style(self.small())
         };
@@ -501,7 +453,7 @@ impl Parts<'_> {
             .look
             .range
             .unwrap_or_else(|| colouring.range(self.home));
-        let faint = Style {
+        let faint = TextStyle {
             colour: self.look.theme.faint,
             ..style
         };
@@ -516,14 +468,7 @@ impl Parts<'_> {
 }
 
 /// A dial with one hand: to the right is forward, to the left backward.
-fn dial(
-    raster: &mut Pixels<'_>,
-    centre: [f64; 2],
-    radius: f64,
-    turn: f64,
-    ring: crate::Rgb,
-    colour: crate::Rgb,
-) {
+fn dial(raster: &mut Pixels<'_>, centre: [f64; 2], radius: f64, turn: f64, ring: Rgb, colour: Rgb) {
     let room = Rect::new(
         (centre[0] - radius - 2.0).max(0.0) as usize,
         (centre[1] - radius - 2.0).max(0.0) as usize,

@@ -1,20 +1,20 @@
 //! The particles: anti-aliased discs that are as large as they are.
 //!
-//! In the plane the colour of a pixel is the mean of the colours of the discs on it, weighted by their
-//! coverages, and its opacity is the sum of these, at most 1; sums of integers, in which discs
-//! that share an edge leave no seam. In space the particles are balls with light and shade, drawn from the
-//! farthest to the nearest and paler in the distance.
+//! In the plane the colour of a pixel is the mean of the colours of the discs on it, weighted by
+//! their coverages, and its opacity is the sum of these, at most 1; sums of integers, in which
+//! discs that share an edge leave no seam. In space the particles are balls with light and shade,
+//! drawn from the farthest to the nearest and paler in the distance.
 //!
 //! No pixel depends on the order of the particles, nor on the number of threads.
 
-use crate::bands::{self, Piece};
+use crate::bands::{self, DiscBatch};
 use crate::camera::Projection;
 use crate::colour::Rgb;
 use crate::colouring::Painter;
 use crate::deep::{self, Disc};
-use crate::draw::Look;
 use crate::flat::{self, Brush, Dot};
 use crate::home::Home;
+use crate::look::Look;
 use crate::raster::{Mask, Pixels, Raster, Rect};
 use crate::stamp::{PARTS, SMALLEST, Stamp};
 use crate::wide::wide;
@@ -33,8 +33,8 @@ const HAZE: f64 = 120.0;
 
 thread_local! {
     /// Memory of earlier pictures.
-    static FLAT: Cell<Vec<Piece<Dot>>> = const { Cell::new(Vec::new()) };
-    static DEEP: Cell<Vec<Piece<Disc>>> = const { Cell::new(Vec::new()) };
+    static FLAT: Cell<Vec<DiscBatch<Dot>>> = const { Cell::new(Vec::new()) };
+    static DEEP: Cell<Vec<DiscBatch<Disc>>> = const { Cell::new(Vec::new()) };
 }
 
 /// The particles alone, without text: what a terminal shows, or a test compares. `width` and
@@ -59,7 +59,7 @@ pub(crate) fn paint(
     if rect.width == 0 || rect.height == 0 {
         return;
     }
-    let scene = Scene {
+    let scene = FieldPainting {
         points,
         home,
         look,
@@ -85,7 +85,7 @@ pub(crate) fn paint(
     }
 }
 
-struct Scene<'a> {
+struct FieldPainting<'a> {
     points: &'a Points,
     home: &'a Home,
     look: &'a Look,
@@ -93,7 +93,7 @@ struct Scene<'a> {
     projection: Projection,
 }
 
-impl Scene<'_> {
+impl FieldPainting<'_> {
     fn painter(&self) -> Painter<'_> {
         let look = self.look;
         Painter::new(
@@ -119,8 +119,9 @@ impl Scene<'_> {
         [self.rect.width as f64, self.rect.height as f64]
     }
 
-    /// The discs of a plane scene, the walls in the first piece; and what all of them are drawn with.
-    fn flat(&self, pieces: &mut Vec<Piece<Dot>>) -> Brush {
+    /// The discs of a plane scene, the walls in the first piece; and what all of them are drawn
+    /// with.
+    fn flat(&self, pieces: &mut Vec<DiscBatch<Dot>>) -> Brush {
         /// Particles whose places on the screen are worked out together.
         const RUN: usize = 64;
         let scale = self.projection.scale();
@@ -137,7 +138,7 @@ impl Scene<'_> {
         let bands = bands::count(self.rect.height);
         let points = self.points;
         let count = points.len().div_ceil(PIECE);
-        pieces.resize_with(1 + count, Piece::default);
+        pieces.resize_with(1 + count, DiscBatch::default);
         pieces.par_iter_mut().enumerate().for_each(|(n, piece)| {
             piece.clear(bands);
             if n == 0 {
@@ -174,7 +175,7 @@ impl Scene<'_> {
     }
 
     /// The discs of a scene in space from the farthest to the nearest, and their stamps.
-    fn deep(&self, pieces: &mut Vec<Piece<Disc>>) -> Vec<Stamp> {
+    fn deep(&self, pieces: &mut Vec<DiscBatch<Disc>>) -> Vec<Stamp> {
         let painter = self.painter();
         let radius = self.radius();
         let background = self.look.theme.background;
@@ -225,7 +226,7 @@ impl Scene<'_> {
             .map(|&level| Stamp::new(radius_of(level), true))
             .collect();
         let bands = bands::count(self.rect.height);
-        pieces.resize_with(discs.len().div_ceil(PIECE), Piece::default);
+        pieces.resize_with(discs.len().div_ceil(PIECE), DiscBatch::default);
         pieces
             .par_iter_mut()
             .zip(discs.par_chunks(PIECE))
@@ -286,8 +287,8 @@ fn disc(x: f64, y: f64, radius: f64, [width, height]: [f64; 2]) -> Option<Disc> 
     })
 }
 
-/// A coordinate (m) in [`PARTS`] of a pixel, rounded to the nearest below by the factor and summand of its
-/// axis; far outside of any picture where it lies beyond.
+/// A coordinate (m) in [`PARTS`] of a pixel, by the factor and summand of its axis, rounded down.
+/// What lies too far outside of the picture to be counted is moved nearer, but stays outside.
 #[inline(always)]
 fn parts(x: f32, [factor, summand]: [f64; 2]) -> i32 {
     const FAR: f64 = 16_777_216.0;
@@ -297,7 +298,7 @@ fn parts(x: f32, [factor, summand]: [f64; 2]) -> i32 {
     (part + WHOLE).to_bits() as i32
 }
 
-/// The largest integer that is not above; without a call of a library for each particle.
+/// The number rounded down; unlike the function of the library it is no call for each particle.
 #[inline]
 fn floor(x: f64) -> i32 {
     let whole = x as i32;

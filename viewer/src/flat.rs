@@ -1,7 +1,7 @@
 //! Discs of the plane, all of one radius.
 //!
-//! With the coverages w of a pixel by the discs on it, of colours c, and full coverage w₁, the pixel on a
-//! ground of colour g has the colour
+//! With the coverages w of a pixel by the discs on it, of colours c, and full coverage w₁, the
+//! pixel on a ground of colour g has the colour
 //!
 //! (Σ w c + (w₁ - Σ w) g) / w₁ up to Σ w = w₁, and Σ w c / Σ w above,
 //!
@@ -13,7 +13,7 @@
 //! on a pixel while particles keep their spacing; where more do, the band is drawn again with
 //! wider sums.
 
-use crate::bands::{self, Canvas, Piece};
+use crate::bands::{self, Canvas, DiscBatch};
 use crate::colour::Rgb;
 use crate::stamp::{PARTS, Stamp};
 use crate::wide::wide;
@@ -34,7 +34,8 @@ const TILE: usize = 16;
 /// A disc to be drawn on a band.
 #[derive(Clone, Copy)]
 pub(crate) struct Dot {
-    /// First column in the rectangle, and first row in the band plus [`Dot::ROW`] in the lowest bits.
+    /// First column in the rectangle, and first row in the band plus [`Dot::ROW`] in the lowest
+    /// bits.
     corner: i32,
     /// Place within a pixel and colour.
     look: u32,
@@ -82,7 +83,8 @@ pub(crate) struct Brush {
 }
 
 impl Brush {
-    /// A disc of `radius` pixels, of which `overlap` lie on a pixel where particles keep their spacing.
+    /// A disc of `radius` pixels, of which `overlap` lie on a pixel where particles keep their
+    /// spacing.
     pub fn new(radius: f64, overlap: f64) -> Self {
         let stamp = Stamp::new(radius, false);
         let [least, most] = STEPS;
@@ -97,10 +99,10 @@ impl Brush {
         }
     }
 
-    /// Lays a disc with its centre at `x`, `y` (in [`PARTS`] of a pixel) in a rectangle of so many columns
-    /// out by bands.
+    /// Lays a disc with its centre at `x`, `y` (in [`PARTS`] of a pixel) in a rectangle of so many
+    /// columns out by bands.
     #[inline(always)]
-    pub fn lay(&self, piece: &mut Piece<Dot>, width: usize, x: i32, y: i32, colour: Rgb) {
+    pub fn lay(&self, piece: &mut DiscBatch<Dot>, width: usize, x: i32, y: i32, colour: Rgb) {
         let column = x.div_euclid(PARTS) - self.half;
         let row = y.div_euclid(PARTS) - self.half;
         if column >= width as i32 || column + self.size as i32 <= 0 {
@@ -138,7 +140,7 @@ thread_local! {
 }
 
 /// Draws the background, and on it the discs.
-pub(crate) fn draw(canvas: &mut Canvas<'_>, pieces: &[Piece<Dot>], brush: &Brush, ground: Rgb) {
+pub(crate) fn draw(canvas: &mut Canvas<'_>, pieces: &[DiscBatch<Dot>], brush: &Brush, ground: Rgb) {
     let sparse = wide(
         #[inline(always)]
         || draw_sparse(canvas, pieces, brush, ground),
@@ -150,7 +152,12 @@ pub(crate) fn draw(canvas: &mut Canvas<'_>, pieces: &[Piece<Dot>], brush: &Brush
 
 /// The same; false where more discs lie on a pixel than there is room for.
 #[inline(always)]
-fn draw_sparse(canvas: &mut Canvas<'_>, pieces: &[Piece<Dot>], brush: &Brush, ground: Rgb) -> bool {
+fn draw_sparse(
+    canvas: &mut Canvas<'_>,
+    pieces: &[DiscBatch<Dot>],
+    brush: &Brush,
+    ground: Rgb,
+) -> bool {
     let (mut sums, mut tiles) = SUMS.take();
     tiles.clear();
     tiles.resize(canvas.width.div_ceil(TILE), 0);
@@ -160,7 +167,7 @@ fn draw_sparse(canvas: &mut Canvas<'_>, pieces: &[Piece<Dot>], brush: &Brush, gr
         sums.resize(size, 0);
     }
     let discs = || pieces.iter().flat_map(|piece| &piece.bands[canvas.band]);
-    let mut band = Sums {
+    let mut band = ColourSums {
         sums: &mut sums[..size],
         tiles: &mut tiles,
         stride,
@@ -194,12 +201,13 @@ fn draw_sparse(canvas: &mut Canvas<'_>, pieces: &[Piece<Dot>], brush: &Brush, gr
         }
     }
     SUMS.set((sums, tiles));
-    // Fewer discs leave the sum of coverages in its own 16 bits, and so tell whether the others are.
+    // Fewer discs leave the sum of coverages in its own 16 bits, and so tell whether the others
+    // are.
     most <= MOST && u64::from(deepest) * u64::from(brush.full) < 0xffff
 }
 
-/// The colours of the pixels of a tile; returns the largest Σ w. Beyond [`MOST`] whatever comes out is drawn
-/// again.
+/// The colours of the pixels of a tile; returns the largest Σ w. Beyond [`MOST`] whatever comes out
+/// is drawn again.
 #[inline(always)]
 fn resolve(sums: [u64; TILE], pixels: &mut [u32], full: u32, ground: Rgb) -> u32 {
     let weights = sums.map(|sums| (sums >> 48) as u32);
@@ -221,7 +229,7 @@ fn resolve(sums: [u64; TILE], pixels: &mut [u32], full: u32, ground: Rgb) -> u32
 }
 
 /// The sums of a band.
-struct Sums<'a, 'b> {
+struct ColourSums<'a, 'b> {
     sums: &'a mut [u64],
     /// Discs on a tile.
     tiles: &'a mut [u32],
@@ -231,7 +239,7 @@ struct Sums<'a, 'b> {
     brush: &'a Brush,
 }
 
-impl Sums<'_, '_> {
+impl ColourSums<'_, '_> {
     /// Adds discs of `SIZE` pixels.
     #[inline(always)]
     fn add_all<'d, const SIZE: usize>(&mut self, discs: impl Iterator<Item = &'d Dot>) {
@@ -287,7 +295,7 @@ impl Sums<'_, '_> {
 }
 
 /// The same where more discs lie on a pixel than sums of 16 bits hold.
-fn draw_crowd(canvas: &mut Canvas<'_>, pieces: &[Piece<Dot>], brush: &Brush, ground: Rgb) {
+fn draw_crowd(canvas: &mut Canvas<'_>, pieces: &[DiscBatch<Dot>], brush: &Brush, ground: Rgb) {
     let width = canvas.width;
     let mut sums = vec![[0_u64; 4]; width * canvas.height];
     for disc in pieces.iter().flat_map(|piece| &piece.bands[canvas.band]) {
@@ -330,7 +338,7 @@ mod tests {
     /// Draws discs in a picture, by the sums of 16 bits or the wide ones alone.
     fn drawn(brush: &Brush, discs: &[(i32, i32, u32)], wide: bool) -> Raster {
         let (width, height) = SIZE;
-        let mut piece = Piece::default();
+        let mut piece = DiscBatch::default();
         piece.clear(bands::count(height));
         for &(x, y, colour) in discs {
             brush.lay(&mut piece, width, x, y, Rgb(colour));

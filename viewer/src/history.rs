@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A moment of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct HistoryPoint {
     /// Steps taken over both legs.
     pub step: u64,
     /// Physical time, s: falls on the way back.
@@ -24,7 +24,7 @@ pub struct Point {
     pub equilibrium: Option<f64>,
 }
 
-impl From<&Row> for Point {
+impl From<&Row> for HistoryPoint {
     fn from(row: &Row) -> Self {
         let kinetic = row.energy("kinetic");
         Self {
@@ -47,9 +47,9 @@ impl From<&Row> for Point {
 /// The moments of a run so far, in the order they were lived through.
 #[derive(Clone, Debug)]
 pub struct History {
-    points: Vec<Point>,
+    points: Vec<HistoryPoint>,
     span: f64,
-    /// Of all histories, only equal ones have the same.
+    /// Histories with the same number are equal.
     version: u64,
 }
 
@@ -92,7 +92,7 @@ impl History {
     }
 
     /// Adds a moment.
-    pub fn push(&mut self, point: Point) {
+    pub fn push(&mut self, point: HistoryPoint) {
         self.span = self.span.max(point.time);
         self.points.push(point);
         self.version = new_version();
@@ -105,7 +105,7 @@ impl History {
 
     /// The moments.
     #[must_use]
-    pub fn points(&self) -> &[Point] {
+    pub fn points(&self) -> &[HistoryPoint] {
         &self.points
     }
 

@@ -4,8 +4,8 @@
 //! view shows, and the scales of speed and pressure by which colours are chosen, so that one colour
 //! means the same in all frames of a run:
 //!
-//! - speed U = max(√(2 g H), twice the fastest first velocity), H the height of the fluid (m) along the
-//!   gravity g (m/s²); a tenth of the sound speed where both are zero,
+//! - speed U = max(√(2 g H), twice the fastest first velocity), H the height of the fluid (m) along
+//!   the gravity g (m/s²); a tenth of the sound speed where both are zero,
 //! - pressure ρ₀ U², density ρ₀ (1 ± 3 U²/c²).
 
 use loschmidt_runner::Frame;

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-/// A key, whoever has seen it pressed.
+/// A key, whether it was pressed on a terminal or in a window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Key {
     /// A character as it was typed, with its case.
@@ -28,15 +28,15 @@ pub enum Key {
     PageUp,
     /// A page on.
     PageDown,
-    /// Agree.
+    /// Takes what is chosen or typed.
     Enter,
-    /// Leave.
+    /// Closes what is open.
     Escape,
     /// The next field.
     Tab,
     /// The field before.
     BackTab,
-    /// Take the last character away.
+    /// Takes the last character away.
     Backspace,
 }
 
@@ -142,7 +142,7 @@ pub enum Action {
 /// Keys that belong together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Binding {
-    /// What is headed so.
+    /// Their heading in the help.
     pub group: &'static str,
     /// Keys and what each does.
     pub keys: &'static [(Key, Action)],
@@ -289,6 +289,14 @@ pub fn of_window() -> Vec<Binding> {
         all.insert(last.map_or(all.len(), |n| n + 1), *binding);
     }
     all
+}
+
+/// The first key of a table that does this, for people.
+#[must_use]
+pub fn key_of(table: &[Binding], action: Action) -> Option<String> {
+    let mut pairs = table.iter().flat_map(|binding| binding.keys);
+    let found = pairs.find(|(_, does)| *does == action);
+    found.map(|(key, _)| key.to_string())
 }
 
 /// What a key does in the window.

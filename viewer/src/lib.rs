@@ -12,13 +12,15 @@
 //! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
 //!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
 //! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
-//! 6. What faces share: [`face`], what they open, keep and say; [`keys`], the one table of keys;
-//!    [`track`], the ways out and back as they are while a user goes to and fro.
-//! 7. [`window`]: the desktop window.
+//! 6. [`session`]: a scene that a user watches and steers, whatever face shows it. [`keys`]: the
+//!    one table of keys. [`track`]: the ways out and back while a user goes to and fro.
+//! 7. [`window`]: the desktop window, a face of a session; the dashboard of `loschmidt tui` is the
+//!    other one.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
-//! every machine. Every thread owns the rows it draws, sums over particles are sums of whole numbers
-//! or in the order of the ids, and of the functions beyond `+ - * / sqrt` only those of `libm` are used.
+//! every machine. Every thread owns the rows it draws, sums over particles are sums of whole
+//! numbers or in the order of the ids, and of the functions beyond `+ - * / sqrt` only those of
+//! `libm` are used.
 
 #![forbid(unsafe_code)]
 
@@ -28,17 +30,18 @@ pub mod colour;
 pub mod colouring;
 mod deep;
 pub mod draw;
-pub mod face;
 pub mod field;
 mod flat;
 pub mod history;
 pub mod home;
 pub mod keys;
+pub mod look;
 pub mod movie;
 pub mod picture;
 pub mod plot;
 pub mod png;
 pub mod raster;
+pub mod session;
 mod stamp;
 pub mod text;
 pub mod track;
@@ -48,11 +51,12 @@ pub mod window;
 pub use camera::{Projection, View};
 pub use colour::{Colormap, Rgb, Theme};
 pub use colouring::Colouring;
-pub use draw::{Look, Pane, draw, draw_on};
+pub use draw::{Pane, draw, draw_on};
 pub use field::field;
-pub use history::{History, Point};
+pub use history::{History, HistoryPoint};
 pub use home::Home;
 pub use keys::{Action, Key};
+pub use look::Look;
 pub use picture::Picture;
 pub use raster::{Pixels, Raster, Rect};
 pub use track::Track;

@@ -3,12 +3,12 @@
 
 use crate::colour::{Rgb, Theme};
 use crate::colouring::round_number;
-use crate::history::{History, Point};
+use crate::history::{History, HistoryPoint};
 use crate::raster::{Mask, Pixels, Rect};
-use crate::text::{self, Style, Weight};
+use crate::text::{self, TextStyle, Weight};
 
 /// A curve and what it is called.
-pub struct Curve<'a> {
+pub struct HistoryCurve<'a> {
     /// Name, in the colour of the curve.
     pub name: &'a str,
     /// Its colour.
@@ -16,7 +16,7 @@ pub struct Curve<'a> {
     /// The moments.
     pub history: &'a History,
     /// The number at a moment; none leaves a gap.
-    pub value: &'a dyn Fn(&Point) -> Option<f64>,
+    pub value: &'a dyn Fn(&HistoryPoint) -> Option<f64>,
     /// A line to compare with, drawn faintly and without a mark at its end.
     pub reference: bool,
 }
@@ -28,17 +28,17 @@ pub struct Plot<'a> {
     /// Its unit.
     pub unit: &'a str,
     /// The curves, the first one in front.
-    pub curves: &'a [Curve<'a>],
+    pub curves: &'a [HistoryCurve<'a>],
     /// The numbers at the bottom and the top.
     pub range: [f64; 2],
     /// A number within the range that a faint line marks.
-    pub mark: Option<Mark>,
+    pub mark: Option<MarkedValue>,
     /// The largest time, s.
     pub span: f64,
 }
 
 /// A number that a faint line marks.
-pub struct Mark {
+pub struct MarkedValue {
     /// The number.
     pub value: f64,
     /// Its text.
@@ -50,7 +50,7 @@ pub struct Mark {
 impl Plot<'_> {
     /// Draws the plot into a rectangle; `em` is the size of its text in pixels.
     pub fn draw(&self, raster: &mut Pixels<'_>, rect: Rect, theme: &Theme, em: usize) {
-        let style = Style {
+        let style = TextStyle {
             size: em,
             weight: Weight::Medium,
             colour: theme.text,
@@ -71,7 +71,7 @@ impl Plot<'_> {
             theme.rule,
             255,
         );
-        let faint = Style {
+        let faint = TextStyle {
             colour: theme.faint,
             ..style
         };
@@ -91,7 +91,7 @@ impl Plot<'_> {
     }
 
     /// The line at the marked number, its text at one end.
-    fn mark(&self, raster: &mut Pixels<'_>, axes: Rect, theme: &Theme, style: &Style) {
+    fn mark(&self, raster: &mut Pixels<'_>, axes: Rect, theme: &Theme, style: &TextStyle) {
         let Some(mark) = &self.mark else {
             return;
         };
@@ -112,14 +112,14 @@ impl Plot<'_> {
     }
 
     /// The title and, where there is room, the names of the curves in their colours.
-    fn names(&self, raster: &mut Pixels<'_>, rect: Rect, style: &Style) {
+    fn names(&self, raster: &mut Pixels<'_>, rect: Rect, style: &TextStyle) {
         let baseline = (rect.y + style.size) as i64;
         let title = if self.unit.is_empty() {
             self.title.to_owned()
         } else {
             format!("{} / {}", self.title, self.unit)
         };
-        let bold = Style {
+        let bold = TextStyle {
             weight: Weight::SemiBold,
             ..*style
         };
@@ -133,7 +133,7 @@ impl Plot<'_> {
             if right - width < end + gap {
                 break;
             }
-            let style = Style {
+            let style = TextStyle {
                 colour: curve.colour,
                 ..*style
             };
@@ -146,12 +146,12 @@ impl Plot<'_> {
         &self,
         raster: &mut Pixels<'_>,
         axes: Rect,
-        curve: &Curve<'_>,
+        curve: &HistoryCurve<'_>,
         theme: &Theme,
         em: usize,
     ) {
         let [low, high] = self.range;
-        let place = |point: &Point| {
+        let place = |point: &HistoryPoint| {
             let value = (curve.value)(point)?;
             let part = (value - low) / (high - low).max(f64::MIN_POSITIVE);
             let x = point.time / self.span.max(f64::MIN_POSITIVE);
@@ -177,7 +177,7 @@ impl Plot<'_> {
             axes.height + em,
         )
         .clipped(raster.width(), raster.height());
-        let draw = |raster: &mut Pixels<'_>, points: &[Point], width: f64, alpha: u8| {
+        let draw = |raster: &mut Pixels<'_>, points: &[HistoryPoint], width: f64, alpha: u8| {
             let mut mask = Mask::new(room);
             let mut last: Option<[f64; 2]> = None;
             for (n, point) in points.iter().enumerate() {
@@ -226,16 +226,16 @@ pub fn energy(raster: &mut Pixels<'_>, rect: Rect, history: &History, theme: &Th
         .iter()
         .flat_map(|p| [p.potential, p.total])
         .fold(0.0, f64::min);
-    let curve = |name, colour, value| Curve {
+    let curve = |name, colour, value| HistoryCurve {
         name,
         colour,
         history,
         value,
         reference: false,
     };
-    let total = |p: &Point| Some(p.total);
-    let kinetic = |p: &Point| Some(p.kinetic);
-    let potential = |p: &Point| Some(p.potential);
+    let total = |p: &HistoryPoint| Some(p.total);
+    let kinetic = |p: &HistoryPoint| Some(p.kinetic);
+    let potential = |p: &HistoryPoint| Some(p.potential);
     let lifts = points.iter().any(|p| p.potential != 0.0);
     let mut curves = vec![curve("kinetic", theme.forward, &kinetic)];
     if lifts {
@@ -251,7 +251,7 @@ pub fn energy(raster: &mut Pixels<'_>, rect: Rect, history: &History, theme: &Th
         curves: &curves,
         range: [lowest, largest + margin],
         // At the left the curves are far from the middle.
-        mark: Some(Mark {
+        mark: Some(MarkedValue {
             value: half,
             text: joules(half),
             left: true,
@@ -272,13 +272,13 @@ pub fn entropy(
     let Some((_, first)) = runs.first() else {
         return;
     };
-    let value = |p: &Point| Some(p.entropy);
-    let balance = |p: &Point| p.equilibrium;
+    let value = |p: &HistoryPoint| Some(p.entropy);
+    let balance = |p: &HistoryPoint| p.equilibrium;
     let colours = [theme.forward, theme.backward, theme.second, theme.third];
-    let mut curves: Vec<Curve<'_>> = runs
+    let mut curves: Vec<HistoryCurve<'_>> = runs
         .iter()
         .zip(colours)
-        .map(|((name, history), colour)| Curve {
+        .map(|((name, history), colour)| HistoryCurve {
             name: if runs.len() > 1 { name } else { "" },
             colour,
             history,
@@ -286,7 +286,7 @@ pub fn entropy(
             reference: false,
         })
         .collect();
-    curves.push(Curve {
+    curves.push(HistoryCurve {
         name: if runs.len() > 1 { "" } else { "equilibrium" },
         colour: theme.faint,
         history: first,
@@ -309,7 +309,7 @@ pub fn entropy(
         unit: "",
         curves: &curves,
         range: [low, high],
-        mark: (low < 0.0 && high > 0.0).then(|| Mark {
+        mark: (low < 0.0 && high > 0.0).then(|| MarkedValue {
             value: 0.0,
             text: "0".to_owned(),
             left: false,

@@ -113,20 +113,6 @@ impl Raster {
         };
         self.pixels.iter().flat_map(bytes).collect()
     }
-    /// A picture of bytes R, G, B; `None` if they are not `width * height` triples.
-    #[must_use]
-    pub fn from_rgb(width: usize, height: usize, bytes: &[u8]) -> Option<Self> {
-        let (triples, rest) = bytes.as_chunks::<3>();
-        let fits = rest.is_empty() && width.checked_mul(height) == Some(triples.len());
-        fits.then(|| Self {
-            width,
-            height,
-            pixels: triples
-                .iter()
-                .map(|&[r, g, b]| u32::from_be_bytes([0, r, g, b]))
-                .collect(),
-        })
-    }
     /// A copy of the part in this rectangle.
     #[must_use]
     pub fn part(&self, rect: Rect) -> Self {

@@ -1,9 +1,10 @@
-//! Discs as stamps: coverage of the pixels, computed once for every radius and place within a pixel.
+//! Discs as stamps: coverage of the pixels, computed once for every radius and place within a
+//! pixel.
 //!
 //! The coverage of a pixel by a disc of radius r is counted on 8 x 8 points of the pixel for small
-//! discs, and is r + 1/2 - d, cut off at 0 and 1, with the distance d of the pixel's middle for large ones.
-//! The shade is that of a ball under a lamp over the left shoulder: ambient + diffuse light, by the
-//! normal n = (x, y, √(r² - x² - y²))/r.
+//! discs, and is r + 1/2 - d, cut off at 0 and 1, with the distance d of the pixel's middle for
+//! large ones. The shade is that of a ball under a lamp over the left shoulder: ambient + diffuse
+//! light, by the normal n = (x, y, √(r² - x² - y²))/r.
 
 /// Positions are in these parts of a pixel.
 pub(crate) const PARTS: i32 = 8;

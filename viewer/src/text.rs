@@ -1,7 +1,7 @@
 //! Text in the embedded font, Inter (SIL Open Font License, `assets/OFL.txt`), with smooth edges.
 //!
-//! Sizes are those of the em in whole pixels. Digits are all as wide as a zero, so that numbers that
-//! change do not tremble.
+//! Sizes are those of the em in whole pixels. Digits are all as wide as a zero, so that numbers
+//! that change do not tremble.
 
 use crate::colour::Rgb;
 use crate::raster::Pixels;
@@ -23,7 +23,7 @@ pub enum Weight {
 
 /// How text is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Style {
+pub struct TextStyle {
     /// The em, pixels.
     pub size: usize,
     /// Thickness.
@@ -51,10 +51,10 @@ const KEPT: usize = 4096;
 /// Places within a pixel that are told apart.
 const PLACES: f64 = 4.0;
 
-type Key = (Weight, u16, usize, u8);
+type GlyphKey = (Weight, u16, usize, u8);
 
 thread_local! {
-    static GLYPHS: RefCell<HashMap<Key, Rc<Drawn>>> = RefCell::default();
+    static GLYPHS: RefCell<HashMap<GlyphKey, Rc<Drawn>>> = RefCell::default();
 }
 
 fn font(weight: Weight) -> Option<&'static FontRef<'static>> {
@@ -94,13 +94,13 @@ fn line(font: &FontRef<'_>, size: usize, text: &str) -> (Vec<(GlyphId, f64)>, f6
 
 /// Width of a text, pixels.
 #[must_use]
-pub fn width(style: &Style, text: &str) -> f64 {
+pub fn width(style: &TextStyle, text: &str) -> f64 {
     font(style.weight).map_or(0.0, |font| line(font, style.size, text).1)
 }
 
 /// Writes a text that begins at `x` on the baseline `y`, pixels from the top left; returns where it
 /// ends.
-pub fn write(raster: &mut Pixels<'_>, style: &Style, x: f64, y: i64, text: &str) -> f64 {
+pub fn write(raster: &mut Pixels<'_>, style: &TextStyle, x: f64, y: i64, text: &str) -> f64 {
     let Some(font) = font(style.weight) else {
         return x;
     };
@@ -123,18 +123,18 @@ pub fn write(raster: &mut Pixels<'_>, style: &Style, x: f64, y: i64, text: &str)
 }
 
 /// Writes a text that ends at `x`.
-pub fn write_left_of(raster: &mut Pixels<'_>, style: &Style, x: f64, y: i64, text: &str) {
+pub fn write_left_of(raster: &mut Pixels<'_>, style: &TextStyle, x: f64, y: i64, text: &str) {
     write(raster, style, x - width(style, text), y, text);
 }
 
 /// Writes a text with its middle at `x`.
-pub fn write_around(raster: &mut Pixels<'_>, style: &Style, x: f64, y: i64, text: &str) {
+pub fn write_around(raster: &mut Pixels<'_>, style: &TextStyle, x: f64, y: i64, text: &str) {
     write(raster, style, x - 0.5 * width(style, text), y, text);
 }
 
 /// The text, or as much of its beginning as fits into `room` pixels, with an ellipsis.
 #[must_use]
-pub fn fitted(style: &Style, text: &str, room: f64) -> String {
+pub fn fitted(style: &TextStyle, text: &str, room: f64) -> String {
     if width(style, text) <= room {
         return text.to_owned();
     }
@@ -148,7 +148,7 @@ pub fn fitted(style: &Style, text: &str, room: f64) -> String {
     String::new()
 }
 
-fn drawn(key: Key, font: &FontRef<'_>) -> Rc<Drawn> {
+fn drawn(key: GlyphKey, font: &FontRef<'_>) -> Rc<Drawn> {
     GLYPHS.with_borrow_mut(|glyphs| {
         if glyphs.len() > KEPT {
             glyphs.clear();
@@ -161,7 +161,7 @@ fn drawn(key: Key, font: &FontRef<'_>) -> Rc<Drawn> {
     })
 }
 
-fn rasterise((_, glyph, size, place): Key, font: &FontRef<'_>) -> Drawn {
+fn rasterise((_, glyph, size, place): GlyphKey, font: &FontRef<'_>) -> Drawn {
     // The crate measures sizes from the deepest to the highest stroke of the font.
     let scale = (f64::from(font.height_unscaled()) * unit(font, size)) as f32;
     let position = point(f32::from(place) / PLACES as f32, 0.0);

@@ -1,25 +1,41 @@
 //! The ways out and back while a user goes to and fro.
 //!
-//! A run that is watched turns whenever its user likes. The way out has one moment at every place in
-//! time, the latest that was lived through going on; the way back is that of the last journey towards the
-//! start. So a plot shows the one drawn over the other, and no more, however long one plays.
+//! A run that is watched turns whenever its user likes. The way out has one moment at every place
+//! in time, the latest that was lived through going on; the way back is that of the last journey
+//! towards the start. So a plot shows the one drawn over the other, and no more, however long one
+//! plays.
 
-use crate::history::{History, Point};
+use crate::history::History;
 use loschmidt_runner::Arrow;
 use loschmidt_runner::run::Row;
+use std::sync::OnceLock;
 
 /// The rows of the way out and of the last way back.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Track {
+    /// Physical time that the plots have room for, s.
+    span: f64,
     /// Rising positions.
     out: Vec<Row>,
     /// Falling positions.
     back: Vec<Row>,
+    /// The same rows as a history, once it was asked for.
+    history: OnceLock<History>,
 }
 
 impl Track {
+    /// Without a row yet. `span`: physical time that the plots have room for, s.
+    #[must_use]
+    pub fn new(span: f64) -> Self {
+        Self {
+            span,
+            ..Self::default()
+        }
+    }
+
     /// Adds a row that was reached in this direction.
     pub fn push(&mut self, row: Row, travel: Arrow) {
+        self.history.take();
         match travel {
             Arrow::Forward => {
                 self.back.clear();
@@ -39,10 +55,10 @@ impl Track {
         }
     }
 
-    /// The track of a series.
+    /// The track of a series. `span`: physical time that the plots have room for, s.
     #[must_use]
-    pub fn of_rows(rows: &[Row]) -> Self {
-        let mut track = Self::default();
+    pub fn of_rows(rows: &[Row], span: f64) -> Self {
+        let mut track = Self::new(span);
         for row in rows {
             let travel = if row.leg == 2 {
                 Arrow::Backward
@@ -93,13 +109,10 @@ impl Track {
         rows
     }
 
-    /// The same as a history, for pictures. `span`: physical time that the plots have room for, s.
+    /// The same as a history, for pictures.
     #[must_use]
-    pub fn history(&self, span: f64) -> History {
-        let mut history = History::new(span);
-        for row in self.rows() {
-            history.push(Point::from(&row));
-        }
-        history
+    pub fn history(&self) -> &History {
+        self.history
+            .get_or_init(|| History::of_rows(&self.rows(), self.span))
     }
 }

@@ -3,7 +3,7 @@
 use loschmidt_runner::run::Run;
 use loschmidt_runner::scene::{Scene, load, resolve};
 use loschmidt_runner::{ArithmeticKind, Frame, Options, Plan, Player};
-use loschmidt_viewer::draw::Layout;
+use loschmidt_viewer::draw::PictureLayout;
 use loschmidt_viewer::movie::{
     Ending, Movie, MovieError, Schedule, Stored, Style, gif, picture_name,
 };
@@ -85,7 +85,7 @@ fn home(scene: &Scene) -> (Home, Frame) {
 }
 
 fn fields(scene: &Scene, panes: usize) -> Vec<Rect> {
-    Layout::new(&home(scene).0, &Look::default(), panes, SIZE.0, SIZE.1).fields
+    PictureLayout::new(&home(scene).0, &Look::default(), panes, SIZE.0, SIZE.1).fields
 }
 
 /// A picture without two equal pixels.

@@ -8,7 +8,7 @@ mod scenes;
 mod tui;
 mod view;
 
-use crate::cli::{Arguments, Command, RunArguments, TuiArguments};
+use crate::cli::{ProgramArguments, ProgramCommand, RunArguments, TuiArguments};
 use crate::dashboard;
 use crate::exit::Failure;
 use clap::CommandFactory;
@@ -17,25 +17,30 @@ use std::io::Write;
 use std::process::ExitCode;
 
 /// Does what the command line says.
-pub fn execute(arguments: Arguments) -> Result<ExitCode, Failure> {
+pub fn execute(arguments: ProgramArguments) -> Result<ExitCode, Failure> {
     match arguments.command {
         None if dashboard::is_terminal() => tui::tui(&TuiArguments::default()),
         None => run::run(&RunArguments::default()),
-        Some(Command::Run(arguments)) => run::run(&arguments),
-        Some(Command::Tui(arguments)) => tui::tui(&arguments),
-        Some(Command::View(arguments)) => view::view(&arguments),
-        Some(Command::Resume(arguments)) => run::resume(&arguments),
-        Some(Command::Movie(arguments)) => movie::movie(&arguments),
-        Some(Command::Scenes(arguments)) => scenes::scenes(&arguments),
-        Some(Command::Reproduce(arguments)) => reproduce::reproduce(&arguments),
-        Some(Command::Check(arguments)) => check::check(&arguments),
-        Some(Command::Digest { snapshot }) => {
+        Some(ProgramCommand::Run(arguments)) => run::run(&arguments),
+        Some(ProgramCommand::Tui(arguments)) => tui::tui(&arguments),
+        Some(ProgramCommand::View(arguments)) => view::view(&arguments),
+        Some(ProgramCommand::Resume(arguments)) => run::resume(&arguments),
+        Some(ProgramCommand::Movie(arguments)) => movie::movie(&arguments),
+        Some(ProgramCommand::Scenes(arguments)) => scenes::scenes(&arguments),
+        Some(ProgramCommand::Reproduce(arguments)) => reproduce::reproduce(&arguments),
+        Some(ProgramCommand::Check(arguments)) => check::check(&arguments),
+        Some(ProgramCommand::Digest { snapshot }) => {
             let snapshot = Snapshot::read(&snapshot)?;
             print(&format!("{}\n", snapshot.digest()))
         }
-        Some(Command::Completions { shell }) => {
+        Some(ProgramCommand::Completions { shell }) => {
             let mut text = Vec::new();
-            clap_complete::generate(shell, &mut Arguments::command(), "loschmidt", &mut text);
+            clap_complete::generate(
+                shell,
+                &mut ProgramArguments::command(),
+                "loschmidt",
+                &mut text,
+            );
             print(&String::from_utf8_lossy(&text))
         }
     }

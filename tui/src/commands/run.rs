@@ -75,7 +75,7 @@ fn earlier(manifest: &Manifest) -> Options {
 
 /// The result and where all of it is.
 #[derive(Serialize)]
-struct Printed<'a> {
+struct PrintedResult<'a> {
     directory: Option<&'a Path>,
     #[serde(flatten)]
     outcome: &'a Outcome,
@@ -92,7 +92,7 @@ fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<Exit
     let outcome = result?;
     let text = if work.json {
         // Shortest digits that read back to the same number; no NaN or infinity can occur in it.
-        let printed = Printed {
+        let printed = PrintedResult {
             directory: run.path(),
             outcome: &outcome,
         };

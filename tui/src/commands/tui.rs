@@ -5,7 +5,7 @@ use crate::cli::{RunArguments, TuiArguments};
 use crate::dashboard;
 use crate::exit::{Failure, USAGE};
 use loschmidt_runner::Options;
-use loschmidt_viewer::face::Request;
+use loschmidt_viewer::session::Request;
 use std::process::ExitCode;
 
 /// Opens the dashboard.

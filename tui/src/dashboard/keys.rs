@@ -1,17 +1,20 @@
 //! From the terminal's events to messages.
 
-use super::message::{Message, Mouse};
+use super::message::DashboardMessage;
 use loschmidt_viewer::Key;
+use loschmidt_viewer::session::{Button, Message, Mouse};
 use ratatui::crossterm::event::{
     Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
 
 /// What an event of the terminal means; `None` for those that mean nothing here.
-pub fn message(event: Event) -> Option<Message> {
+pub fn message(event: Event) -> Option<DashboardMessage> {
     match event {
-        Event::Key(event) if event.kind != KeyEventKind::Release => key(event).map(Message::Key),
+        Event::Key(event) if event.kind != KeyEventKind::Release => {
+            key(event).map(|key| Message::Key(key).into())
+        }
         Event::Mouse(event) => mouse(event),
-        Event::Resize(columns, rows) => Some(Message::Resized(columns, rows)),
+        Event::Resize(columns, rows) => Some(DashboardMessage::Resized(columns, rows)),
         _ => None,
     }
 }
@@ -39,16 +42,15 @@ fn key(event: KeyEvent) -> Option<Key> {
     })
 }
 
-fn mouse(event: MouseEvent) -> Option<Message> {
+fn mouse(event: MouseEvent) -> Option<DashboardMessage> {
     let what = match event.kind {
-        MouseEventKind::Down(MouseButton::Left) => Mouse::Press,
-        MouseEventKind::Drag(MouseButton::Left) => Mouse::Drag,
-        MouseEventKind::Up(MouseButton::Left) => Mouse::Release,
-        MouseEventKind::Down(MouseButton::Right) => Mouse::PressRight,
-        MouseEventKind::Drag(MouseButton::Right) => Mouse::DragRight,
-        MouseEventKind::ScrollUp => Mouse::WheelUp,
-        MouseEventKind::ScrollDown => Mouse::WheelDown,
+        MouseEventKind::Down(MouseButton::Left) => Mouse::Press(Button::Left),
+        MouseEventKind::Down(MouseButton::Right) => Mouse::Press(Button::Right),
+        MouseEventKind::Drag(MouseButton::Left | MouseButton::Right) => Mouse::Move,
+        MouseEventKind::Up(MouseButton::Left | MouseButton::Right) => Mouse::Release,
+        MouseEventKind::ScrollUp => Mouse::Wheel(1.0),
+        MouseEventKind::ScrollDown => Mouse::Wheel(-1.0),
         _ => return None,
     };
-    Some(Message::Mouse(what, event.column, event.row))
+    Some(DashboardMessage::Mouse(what, event.column, event.row))
 }

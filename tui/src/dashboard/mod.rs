@@ -1,14 +1,14 @@
 //! The dashboard: a run on a terminal, in both directions of time.
 //!
 //! ```text
-//! keys, mouse, deck --Message--> update --> State --> view --> Buffer
-//!                                   \--Effect--> deck, files
+//! keys, mouse, deck --DashboardMessage--> update --> DashboardState --> view --> Buffer
+//!                                            \--Effect--> deck, files
 //! ```
 //!
-//! [`update`] changes the state and asks for effects; it knows neither clock nor file. The views are
-//! pure functions of the state. The simulation has a thread of its own, the runner's
-//! [`Deck`]; another one waits for keys. This one only draws, at most 30 times a second, and
-//! at once when a key was pressed.
+//! The dashboard is a face of a session of the viewer: [`update`] adds what the mouse does and the
+//! help that is longer than the screen. The views are pure functions of the state. The simulation
+//! has a thread of its own, the runner's `Deck`; another one waits for keys. This one only draws,
+//! at most 30 times a second, and at once when a key was pressed.
 
 mod keys;
 mod message;
@@ -24,13 +24,12 @@ pub use state::Depth;
 pub use terminal::is_terminal;
 
 use crate::exit::{Failure, INTERRUPTED, OUTPUT, USAGE, quote, tell};
-use loschmidt_runner::deck::{Command, FRAMES, Opening, OpeningError, Report};
-use loschmidt_runner::output::free_directory;
-use loschmidt_runner::{Deck, Options};
-use loschmidt_viewer::face::{Kept, Request, new_picture};
+use loschmidt_runner::Options;
+use loschmidt_runner::deck::{FRAMES, Opening, OpeningError, Report};
+use loschmidt_viewer::session::{Effect, Host, LostState, Message, Request, new_picture};
 use loschmidt_viewer::{Look, Pane, draw, png};
-use message::{Effect, Message};
-use state::State;
+use message::DashboardMessage;
+use state::DashboardState;
 use std::io::BufWriter;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -39,37 +38,32 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
 use terminal::Terminal;
 
-/// Between two looks at the signals.
+/// How often the signals are looked at.
 const LOOK_UP: Duration = Duration::from_millis(50);
-
-/// A step is waited for so long when the state is kept at the end.
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Size of a picture, pixels.
 const PICTURE: (usize, usize) = (1920, 1080);
 
 /// Opens the dashboard; returns when its user leaves.
 pub fn run(request: Request, options: Options, stop: &AtomicBool) -> Result<ExitCode, Failure> {
-    // What cannot be read is said on the terminal as it was.
+    // An error in the scene is told before the dashboard takes the terminal.
     let opening = request.opening(options)?;
     let (sender, inbox) = channel();
     let mut terminal = Terminal::enter()?;
     let depth = Depth::of_environment(|name| std::env::var(name).ok());
-    let mut face = Face {
-        state: State::new(depth, terminal.size()?, request.clone()),
-        options,
-        deck: None,
-        decks: 0,
+    let mut dashboard = Dashboard {
+        state: DashboardState::new(depth, terminal.size()?),
+        host: Host::new(options, FRAMES),
         began: Instant::now(),
         sender,
     };
-    face.open(request, opening);
-    terminal.listen(face.sender.clone());
-    let ended = face.play(&mut terminal, &inbox, stop);
+    dashboard.open(request, opening);
+    terminal.listen(dashboard.sender.clone());
+    let ended = dashboard.play(&mut terminal, &inbox, stop);
     let interrupted = stop.load(Ordering::Relaxed);
-    let kept = face.keep_at_the_end(&inbox);
+    let kept = dashboard.keep_at_the_end(&inbox);
     drop(terminal);
-    drop(face);
+    drop(dashboard);
     match kept {
         Ok(Some(path)) => tell(&format!(
             "go on from where you left it with\n    loschmidt tui {}",
@@ -101,33 +95,30 @@ impl From<OpeningError> for Failure {
 }
 
 /// The dashboard and what it has at hand.
-struct Face {
-    state: State,
-    options: Options,
-    deck: Option<Deck>,
-    /// Decks opened so far: the number of the last one.
-    decks: u64,
+struct Dashboard {
+    state: DashboardState,
+    host: Host,
     began: Instant,
-    sender: Sender<Message>,
+    sender: Sender<DashboardMessage>,
 }
 
-impl Face {
+impl Dashboard {
     /// Draws and listens until the user leaves or a signal comes.
     fn play(
         &mut self,
         terminal: &mut Terminal,
-        inbox: &Receiver<Message>,
+        inbox: &Receiver<DashboardMessage>,
         stop: &AtomicBool,
     ) -> std::io::Result<()> {
         let pause = Duration::from_secs(1) / FRAMES;
         let mut drawn = Instant::now();
         let (mut urgent, mut waiting, mut picture) = (true, false, false);
-        while !self.state.leaving && !stop.load(Ordering::Relaxed) {
+        while !self.state.session.leaving && !stop.load(Ordering::Relaxed) {
             if urgent || (waiting && drawn.elapsed() >= pause) {
                 drawn = Instant::now();
-                terminal.draw(&self.state, self.deck.as_ref())?;
+                terminal.draw(&self.state, self.host.deck())?;
                 (urgent, waiting) = (false, false);
-                if let (true, Some(deck)) = (picture, &self.deck) {
+                if let (true, Some(deck)) = (picture, self.host.deck()) {
                     deck.ready();
                     picture = false;
                 }
@@ -142,13 +133,13 @@ impl Face {
                 Err(RecvTimeoutError::Timeout) => None,
                 Err(RecvTimeoutError::Disconnected) => return Ok(()),
             };
-            let had_notice = self.state.notice.is_some();
+            let had_notice = self.state.session.notice.is_some();
             self.take(Message::Tick(self.began.elapsed()));
-            urgent |= had_notice != self.state.notice.is_some();
+            urgent |= had_notice != self.state.session.notice.is_some();
             while let Some(message) = next {
                 match &message {
-                    Message::Report(_, report) => {
-                        picture |= State::is_picture(report);
+                    DashboardMessage::Session(Message::Report(_, report)) => {
+                        picture |= matches!(**report, Report::Shot(_));
                         let calm = matches!(**report, Report::Moment(_) | Report::Shot(_));
                         urgent |= !calm;
                     }
@@ -163,70 +154,43 @@ impl Face {
     }
 
     /// Takes a message, and does what is asked for then.
-    fn take(&mut self, message: Message) {
+    fn take(&mut self, message: impl Into<DashboardMessage>) {
         for effect in update::update(&mut self.state, message) {
-            self.carry_out(effect);
-        }
-    }
-
-    fn carry_out(&mut self, effect: Effect) {
-        match effect {
-            Effect::Deck(command) => {
-                if let Some(deck) = &self.deck {
-                    deck.send(command);
-                }
-            }
-            Effect::Open(request) => match request.opening(self.options) {
-                Ok(opening) => self.open(request, opening),
-                Err(why) => {
-                    let why = why.to_string();
-                    let why = why.strip_prefix("error: ").unwrap_or(&why).to_owned();
-                    self.take(Message::NotOpened(why));
-                }
-            },
-            Effect::List => self.take(Message::Choices(loschmidt_viewer::face::choices())),
-            Effect::Picture => {
+            if effect == Effect::Picture {
                 let result = self.picture();
                 self.take(Message::Pictured(result));
+            } else {
+                let report = self.reporter();
+                self.host.carry_out(&mut self.state.session, effect, report);
             }
-            Effect::Keep => self.keep(),
-            Effect::Quit => self.state.leaving = true,
         }
     }
 
-    /// Opens what was asked for, in the place of what is open.
+    /// Opens what was asked for.
     fn open(&mut self, request: Request, opening: Opening) {
-        // The old one ends first: two of them may not fit into memory.
-        self.deck = None;
-        self.decks += 1;
-        let number = self.decks;
-        let run = opening
-            .recorded
-            .as_ref()
-            .map(|recorded| Kept::recorded(PathBuf::from(&request.name), recorded));
-        self.take(Message::Opening(number, request));
-        self.state.kept = run;
+        let report = self.reporter();
+        self.host
+            .open(&mut self.state.session, request, opening, report);
+    }
+
+    /// What passes the reports of a deck on, with its number.
+    fn reporter(&self) -> impl Fn(u64, Report) + Send + use<> {
         let sender = self.sender.clone();
-        let report = move |report| {
-            // A face that has gone needs nothing.
-            let _ = sender.send(Message::Report(number, Box::new(report)));
-        };
-        match Deck::open(opening, report) {
-            Ok(deck) => self.deck = Some(deck),
-            Err(why) => self.take(Message::NotOpened(format!("cannot start a thread: {why}"))),
+        move |number, report| {
+            // Once the dashboard has ended nobody reads reports.
+            let _ = sender.send(Message::Report(number, Box::new(report)).into());
         }
     }
 
     /// Writes a picture of what is shown, as large as a screen.
     fn picture(&self) -> Result<PathBuf, String> {
-        let Some(stage) = &self.state.stage else {
+        let Some(stage) = &self.state.session.stage else {
             return Err("there is nothing to draw".to_owned());
         };
-        let history = stage.track.history(stage.home.span);
-        let panes = [Pane::new(&stage.points, &history)];
+        let panes = [Pane::new(&stage.points, stage.track.history())];
         let look = Look {
             panel: true,
-            ..self.state.look.clone()
+            ..self.state.session.look.clone()
         };
         let raster = draw(&panes, &stage.home, &look, PICTURE.0, PICTURE.1);
         let name = format!(
@@ -240,62 +204,22 @@ impl Face {
         Ok(path)
     }
 
-    /// Has the state kept in a new directory: what was kept before stays as it was.
-    fn keep(&mut self) {
-        let (Some(stage), Some(deck)) = (&self.state.stage, &self.deck) else {
-            return;
+    /// Keeps what would be lost; the directory to go on from, where there is something to go on
+    /// with.
+    fn keep_at_the_end(
+        &mut self,
+        inbox: &Receiver<DashboardMessage>,
+    ) -> Result<Option<PathBuf>, LostState> {
+        let present = self.state.session.deck;
+        let next = |end: Instant| loop {
+            let wait = end.saturating_duration_since(Instant::now());
+            if let DashboardMessage::Session(Message::Report(number, report)) =
+                inbox.recv_timeout(wait).ok()?
+                && number == present
+            {
+                return Some(*report);
+            }
         };
-        deck.send(Command::Keep {
-            path: free_directory(&stage.home.name),
-            rows: stage.track.rows(),
-        });
-    }
-
-    /// Keeps what would be lost; the directory to go on from, where there is something to go on with.
-    fn keep_at_the_end(&mut self, inbox: &Receiver<Message>) -> Result<Option<PathBuf>, String> {
-        if let Some(deck) = &self.deck {
-            deck.send(Command::Play(false));
-        }
-        self.settle(inbox);
-        if self.state.unsaved() {
-            self.keep();
-            let end = Instant::now() + PATIENCE;
-            loop {
-                match inbox.recv_timeout(end.saturating_duration_since(Instant::now())) {
-                    Ok(Message::Report(number, report)) if number == self.state.deck => {
-                        match *report {
-                            Report::Kept(path) => return Ok(Some(path)),
-                            Report::NotKept(why) => return Err(why),
-                            _ => {}
-                        }
-                    }
-                    Ok(_) => {}
-                    Err(_) => return Err("the simulation does not answer".to_owned()),
-                }
-            }
-        }
-        let somewhere = |stage: &state::Stage| stage.status.position != 0;
-        let on_the_way = self.state.stage.as_ref().is_some_and(somewhere);
-        let kept = self.state.kept.as_ref().filter(|_| on_the_way);
-        Ok(kept.map(|kept| kept.path.clone()))
-    }
-
-    /// Hears the last reports, so that the state is the one that the simulation stands at.
-    fn settle(&mut self, inbox: &Receiver<Message>) {
-        let end = Instant::now() + PATIENCE;
-        while self
-            .state
-            .stage
-            .as_ref()
-            .is_some_and(|s| s.status.playing || s.status.seek.is_some())
-        {
-            match inbox.recv_timeout(end.saturating_duration_since(Instant::now())) {
-                Ok(Message::Report(number, report)) => {
-                    update::update(&mut self.state, Message::Report(number, report));
-                }
-                Ok(_) => {}
-                Err(_) => return,
-            }
-        }
+        self.host.keep_at_the_end(&mut self.state.session, next)
     }
 }

@@ -1,8 +1,8 @@
 //! The terminal: taken when the dashboard opens, and given back however it ends.
 
 use super::keys;
-use super::message::Message;
-use super::state::State;
+use super::message::DashboardMessage;
+use super::state::DashboardState;
 use loschmidt_runner::Deck;
 use ratatui::backend::CrosstermBackend;
 use ratatui::crossterm::event::{self, DisableMouseCapture, EnableMouseCapture};
@@ -32,7 +32,7 @@ pub fn is_terminal() -> bool {
     std::io::stdin().is_terminal() && stdout().is_terminal() && !dumb
 }
 
-/// The terminal in our hands.
+/// The terminal while the dashboard has it.
 pub struct Terminal {
     /// `None` once the terminal is given back.
     screen: Option<Screen>,
@@ -82,7 +82,7 @@ impl Terminal {
     }
 
     /// Sends what the keyboard, the mouse and the window's frame say, from a thread of its own.
-    pub fn listen(&mut self, sender: Sender<Message>) {
+    pub fn listen(&mut self, sender: Sender<DashboardMessage>) {
         let gone = Arc::clone(&self.gone);
         let listen = move || {
             while !gone.load(Ordering::Relaxed) {
@@ -105,7 +105,7 @@ impl Terminal {
     }
 
     /// Draws the state, in one piece where the terminal can.
-    pub fn draw(&mut self, state: &State, deck: Option<&Deck>) -> std::io::Result<()> {
+    pub fn draw(&mut self, state: &DashboardState, deck: Option<&Deck>) -> std::io::Result<()> {
         let Some(screen) = &mut self.screen else {
             return Ok(());
         };
@@ -122,8 +122,8 @@ impl Terminal {
 impl Drop for Terminal {
     fn drop(&mut self) {
         self.gone.store(true, Ordering::Relaxed);
-        // Where the terminal has gone, reading from it may never end: the thread is left to its fate
-        // then, which is the end of the program.
+        // Where the terminal has gone, reading from it may never end: the thread is then left
+        // alone, and ends with the program.
         let end = Instant::now() + 6 * LOOK_UP;
         if let Some(listener) = self.listener.take() {
             while !listener.is_finished() && Instant::now() < end {
@@ -133,14 +133,14 @@ impl Drop for Terminal {
         if let Some(mut screen) = self.screen.take()
             && screen.show_cursor().is_err()
         {
-            // It would complain to a standard error that has gone with the terminal, and panic.
+            // Dropping it would write an error to a terminal that has gone, and panic.
             std::mem::forget(screen);
         }
         restore();
     }
 }
 
-/// Gives the terminal back; what cannot be done about a terminal that has gone is not done.
+/// Gives the terminal back. Errors mean that it has gone, and are left out.
 fn restore() {
     let _ = disable_raw_mode();
     let _ = execute!(

@@ -5,13 +5,13 @@ mod screens;
 mod speed;
 mod widgets;
 
-use super::message::{Effect, Message};
-use super::state::{Depth, State};
+use super::message::DashboardMessage;
+use super::state::{DashboardState, Depth};
 use super::update::update;
 use loschmidt_runner::deck::{Command, Opening, Report};
 use loschmidt_runner::{Deck, Options};
 use loschmidt_viewer::Key;
-use loschmidt_viewer::face::Request;
+use loschmidt_viewer::session::{Effect, Message, Request};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
@@ -20,7 +20,7 @@ use std::time::Duration;
 
 /// A dashboard at work.
 pub struct Bench {
-    pub state: State,
+    pub state: DashboardState,
     deck: Deck,
     inbox: Receiver<Report>,
 }
@@ -41,7 +41,7 @@ impl Bench {
             beside: false,
         };
         let mut bench = Self {
-            state: State::new(Depth::True, size, request.clone()),
+            state: DashboardState::new(Depth::True, size),
             deck,
             inbox,
         };
@@ -50,7 +50,7 @@ impl Bench {
         bench
     }
 
-    pub fn tell(&mut self, message: Message) -> Vec<Effect> {
+    pub fn tell(&mut self, message: impl Into<DashboardMessage>) -> Vec<Effect> {
         let effects = update(&mut self.state, message);
         for effect in &effects {
             if let Effect::Deck(command) = effect {
@@ -103,7 +103,7 @@ impl Bench {
 }
 
 /// What the terminal shows.
-pub fn screen(state: &State) -> Buffer {
+pub fn screen(state: &DashboardState) -> Buffer {
     let area = Rect::new(0, 0, state.size.0, state.size.1);
     let mut buffer = Buffer::empty(area);
     state.render(area, &mut buffer);

@@ -71,9 +71,9 @@ impl Ended {
 }
 
 /// A directory of its own for every test, and the program in it.
-pub struct Place(TempDir);
+pub struct Workplace(TempDir);
 
-impl Place {
+impl Workplace {
     pub fn new() -> Self {
         Self(TempDir::new().expect("a temporary directory"))
     }

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 /// A terminal with the program on it.
-pub struct Terminal {
+pub struct PseudoTerminal {
     master: Box<dyn MasterPty + Send>,
     keys: Box<dyn Write + Send>,
     child: Box<dyn Child + Send + Sync>,
@@ -25,7 +25,7 @@ pub fn start(
     arguments: &[&str],
     environment: &[(&str, &str)],
     (cols, rows): (u16, u16),
-) -> Terminal {
+) -> PseudoTerminal {
     let size = PtySize {
         rows,
         cols,
@@ -60,7 +60,7 @@ pub fn start(
             }
         }
     });
-    Terminal {
+    PseudoTerminal {
         keys: pair.master.take_writer().expect("its input"),
         master: pair.master,
         child,
@@ -79,7 +79,7 @@ fn modes(master: &dyn MasterPty) -> String {
     format!("{:?}", master.get_termios().expect("modes"))
 }
 
-impl Terminal {
+impl PseudoTerminal {
     /// What is on the screen.
     pub fn text(&self) -> String {
         self.parser.lock().expect("a parser").screen().contents()
@@ -127,7 +127,8 @@ impl Terminal {
         })
     }
 
-    /// Takes the terminal away, as a window that is closed does; the exit code, in a minute at most.
+    /// Takes the terminal away, as a window that is closed does; the exit code, in a minute at
+    /// most.
     pub fn close(self) -> u32 {
         let mut child = self.child;
         self.closed.store(true, Ordering::Relaxed);

@@ -4,7 +4,7 @@
 
 use clap::Parser;
 use loschmidt_runner::Options;
-use loschmidt_viewer::window::{self, Arguments};
+use loschmidt_viewer::window::{self, WindowArguments};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use std::sync::atomic::AtomicBool;
 #[command(name = "loschmidt-viewer", version)]
 struct Program {
     #[command(flatten)]
-    arguments: Arguments,
+    arguments: WindowArguments,
 }
 
 fn main() -> ExitCode {

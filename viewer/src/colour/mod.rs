@@ -43,8 +43,8 @@ pub enum Colormap {
     /// Blue, green, yellow.
     #[default]
     Viridis,
-    /// Purple, orange, yellow: the map without its black and white ends, which would be lost on a dark
-    /// or light ground.
+    /// Purple, orange, yellow: the map without its black and white ends, which would be lost on a
+    /// dark or light ground.
     Magma,
     /// Blue, grey, yellow: the same to eyes that do not tell red from green.
     Cividis,

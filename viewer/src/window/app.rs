@@ -4,15 +4,14 @@ use super::compose::{compose, compose_on};
 use super::error::WindowError;
 use super::input;
 use super::log::Log;
-use super::message::{Button, Effect, Message, Mouse};
-use super::state::State;
+use super::message::WindowMessage;
+use super::state::WindowState;
 use super::update::update;
-use crate::face::{Kept, Request, choices, new_picture};
 use crate::picture::Picture;
 use crate::png;
 use crate::raster::Pixels;
-use loschmidt_runner::deck::{Command, Opening, Report, Wishes};
-use loschmidt_runner::output::free_directory;
+use crate::session::{Button, Effect, Host, Message, Mouse, Request, new_picture};
+use loschmidt_runner::deck::{Opening, Report};
 use loschmidt_runner::{Deck, Options};
 use softbuffer::{Context, Surface};
 use std::io::BufWriter;
@@ -30,11 +29,8 @@ use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoopProxy, OwnedDispl
 use winit::keyboard::ModifiersState;
 use winit::window::{Window, WindowId};
 
-/// Between two looks at the signals.
+/// How often the signals are looked at.
 const LOOK_UP: Duration = Duration::from_millis(50);
-
-/// A step is waited for so long when the state is kept at the end.
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Pictures a second that are asked for.
 const FRAMES: u32 = 60;
@@ -47,7 +43,7 @@ const NOTCH: f64 = 40.0;
 pub struct Wake;
 
 /// What the window draws on.
-struct Canvas {
+struct OpenWindow {
     window: Rc<Window>,
     surface: Surface<OwnedDisplayHandle, Rc<Window>>,
     title: String,
@@ -55,16 +51,13 @@ struct Canvas {
 
 /// The window and what it has at hand.
 pub struct App {
-    state: State,
-    options: Options,
-    deck: Option<Deck>,
-    /// Decks opened so far: the number of the last one.
-    decks: u64,
+    state: WindowState,
+    host: Host,
     sender: Sender<(u64, Report)>,
     inbox: Receiver<(u64, Report)>,
     proxy: EventLoopProxy<Wake>,
     display: OwnedDisplayHandle,
-    canvas: Option<Canvas>,
+    canvas: Option<OpenWindow>,
     /// A picture came that has not been drawn.
     pictured: bool,
     modifiers: ModifiersState,
@@ -78,7 +71,7 @@ pub struct App {
 
 impl App {
     pub fn new(
-        state: State,
+        state: WindowState,
         options: Options,
         (proxy, display): (EventLoopProxy<Wake>, OwnedDisplayHandle),
         stop: Arc<AtomicBool>,
@@ -87,9 +80,7 @@ impl App {
         let (sender, inbox) = channel();
         Self {
             state,
-            options,
-            deck: None,
-            decks: 0,
+            host: Host::new(options, FRAMES),
             sender,
             inbox,
             proxy,
@@ -107,35 +98,23 @@ impl App {
 
     /// Opens what was asked for, in the place of what is open.
     pub fn open(&mut self, request: Request, opening: Opening) {
-        // The old one ends first: two of them may not fit into memory.
-        self.deck = None;
-        self.pictured = false;
-        self.decks += 1;
-        let number = self.decks;
-        let run = opening
-            .recorded
-            .as_ref()
-            .map(|recorded| Kept::recorded(PathBuf::from(&request.name), recorded));
-        let wishes = Wishes {
-            frames: FRAMES,
-            beside: request.beside,
-        };
-        self.take(Message::Opening(number, request));
-        self.state.kept = run;
+        let report = self.reporter();
+        self.host
+            .open(&mut self.state.session, request, opening, report);
+    }
+
+    /// What passes the reports of a deck on, with its number.
+    fn reporter(&self) -> impl Fn(u64, Report) + Send + use<> {
         let (sender, proxy) = (self.sender.clone(), self.proxy.clone());
-        let report = move |report| {
-            // A window that has gone needs nothing.
+        move |number, report| {
+            // Once the window has ended nobody reads reports.
             let _ = sender.send((number, report));
             let _ = proxy.send_event(Wake);
-        };
-        match Deck::open_with(opening, wishes, report) {
-            Ok(deck) => self.deck = Some(deck),
-            Err(why) => self.take(Message::NotOpened(format!("cannot start a thread: {why}"))),
         }
     }
 
     /// Takes a message, does what is asked for then, and has the window drawn.
-    fn take(&mut self, message: Message) {
+    fn take(&mut self, message: impl Into<WindowMessage>) {
         for effect in update(&mut self.state, message) {
             self.carry_out(effect);
         }
@@ -155,38 +134,23 @@ impl App {
     }
 
     fn carry_out(&mut self, effect: Effect) {
-        match effect {
-            Effect::Deck(command) => {
-                if let Some(deck) = &self.deck {
-                    deck.send(command);
-                }
+        if effect == Effect::Picture {
+            let result = self.picture();
+            match &result {
+                Ok(path) => self.log.say(&format!("picture {}", path.display())),
+                Err(why) => self.log.say(&format!("no picture: {why}")),
             }
-            Effect::Open(request) => match request.opening(self.options) {
-                Ok(opening) => self.open(request, opening),
-                Err(why) => {
-                    let why = why.to_string();
-                    let why = why.strip_prefix("error: ").unwrap_or(&why).to_owned();
-                    self.take(Message::NotOpened(why));
-                }
-            },
-            Effect::List => self.take(Message::Choices(choices())),
-            Effect::Picture => {
-                let result = self.picture();
-                match &result {
-                    Ok(path) => self.log.say(&format!("picture {}", path.display())),
-                    Err(why) => self.log.say(&format!("no picture: {why}")),
-                }
-                self.take(Message::Pictured(result));
-            }
-            Effect::Keep => self.keep(),
-            Effect::Quit => self.state.leaving = true,
+            self.take(Message::Pictured(result));
+        } else {
+            let report = self.reporter();
+            self.host.carry_out(&mut self.state.session, effect, report);
         }
     }
 
     /// Writes the pixels of the window.
     fn picture(&self) -> Result<PathBuf, String> {
         let raster = compose(&self.state, self.state.size);
-        let name = match &self.state.stage {
+        let name = match &self.state.session.stage {
             Some(stage) => format!("{}-step-{:06}", stage.home.name, stage.points.step),
             None => "loschmidt".to_owned(),
         };
@@ -196,21 +160,10 @@ impl App {
         Ok(path)
     }
 
-    /// Has the state kept in a new directory: what was kept before stays as it was.
-    fn keep(&mut self) {
-        let (Some(stage), Some(deck)) = (&self.state.stage, &self.deck) else {
-            return;
-        };
-        deck.send(Command::Keep {
-            path: free_directory(&stage.home.name),
-            rows: stage.ways.track.rows(),
-        });
-    }
-
     /// Hears what the deck said.
     fn listen(&mut self) {
         while let Ok((number, report)) = self.inbox.try_recv() {
-            if number != self.state.deck {
+            if number != self.state.session.deck {
                 continue;
             }
             self.log.report(&report);
@@ -225,13 +178,13 @@ impl App {
             return;
         };
         let began = Instant::now();
-        let shown = show(canvas, &self.state, self.deck.as_ref());
+        let shown = show(canvas, &self.state, self.host.deck());
         if let Err(why) = shown {
             self.error = Some(WindowError::Display(why));
-            self.state.leaving = true;
+            self.state.session.leaving = true;
         }
         self.log.drawn(&self.state, began.elapsed());
-        if let (true, Some(deck)) = (std::mem::take(&mut self.pictured), &self.deck) {
+        if let (true, Some(deck)) = (std::mem::take(&mut self.pictured), self.host.deck()) {
             deck.ready();
         }
     }
@@ -242,7 +195,7 @@ impl App {
         self.take(Message::Tint(picture));
     }
 
-    fn create(&mut self, event_loop: &ActiveEventLoop) -> Result<Canvas, WindowError> {
+    fn create(&mut self, event_loop: &ActiveEventLoop) -> Result<OpenWindow, WindowError> {
         let (width, height) = self.state.size;
         let attributes = Window::default_attributes()
             .with_title(self.state.title())
@@ -256,7 +209,7 @@ impl App {
         let window = Rc::new(window);
         let context = Context::new(self.display.clone()).map_err(|why| of_display(&why))?;
         let surface = Surface::new(&context, Rc::clone(&window)).map_err(|why| of_display(&why))?;
-        Ok(Canvas {
+        Ok(OpenWindow {
             window,
             surface,
             title: self.state.title(),
@@ -272,68 +225,30 @@ impl App {
             self.log
                 .say(&format!("size {width}x{height} scale {scale}"));
         }
-        self.take(Message::Resized(width, height, scale));
+        self.take(WindowMessage::Resized(width, height, scale));
     }
 
-    /// Keeps what would be lost; the directory to go on from, where there is something to go on with.
+    /// Keeps what would be lost; the directory to go on from, where there is something to go on
+    /// with.
     pub fn keep_at_the_end(&mut self) -> Result<Option<PathBuf>, WindowError> {
         if let Some(error) = self.error.take() {
             return Err(error);
         }
         self.canvas = None;
-        if let Some(deck) = &self.deck {
-            deck.send(Command::Play(false));
-        }
-        self.settle();
-        if self.state.unsaved() {
-            self.keep();
-            let end = Instant::now() + PATIENCE;
-            loop {
-                match self.next(end) {
-                    Some(Report::Kept(path)) => return Ok(Some(path)),
-                    Some(Report::NotKept(why)) => return Err(WindowError::Lost(why)),
-                    Some(_) => {}
-                    None => {
-                        let why = "the simulation does not answer";
-                        return Err(WindowError::Lost(why.to_owned()));
-                    }
-                }
-            }
-        }
-        let stage = self.state.stage.as_ref();
-        let on_the_way = stage.is_some_and(|stage| stage.status.position != 0);
-        let kept = self.state.kept.as_ref().filter(|_| on_the_way);
-        Ok(kept.map(|kept| kept.path.clone()))
-    }
-
-    /// Hears the last reports, so that the state is the one that the simulation stands at.
-    fn settle(&mut self) {
-        let end = Instant::now() + PATIENCE;
-        let moves = |state: &State| {
-            let stage = state.stage.as_ref();
-            stage.is_some_and(|s| s.status.playing || s.status.seek.is_some())
-        };
-        while moves(&self.state) {
-            let Some(report) = self.next(end) else { return };
-            let number = self.state.deck;
-            update(&mut self.state, Message::Report(number, Box::new(report)));
-        }
-    }
-
-    /// The next report of the present deck.
-    fn next(&self, end: Instant) -> Option<Report> {
-        loop {
+        let (inbox, present) = (&self.inbox, self.state.session.deck);
+        let next = |end: Instant| loop {
             let wait = end.saturating_duration_since(Instant::now());
-            let (number, report) = self.inbox.recv_timeout(wait).ok()?;
-            if number == self.state.deck {
+            let (number, report) = inbox.recv_timeout(wait).ok()?;
+            if number == present {
                 return Some(report);
             }
-        }
+        };
+        Ok(self.host.keep_at_the_end(&mut self.state.session, next)?)
     }
 }
 
 /// The pixels of the state on the surface.
-fn show(canvas: &mut Canvas, state: &State, deck: Option<&Deck>) -> Result<(), String> {
+fn show(canvas: &mut OpenWindow, state: &WindowState, deck: Option<&Deck>) -> Result<(), String> {
     let (width, height) = state.size;
     let size = |n: usize| u32::try_from(n).ok().and_then(NonZeroU32::new);
     // A window that is rolled up has no pixels.
@@ -355,15 +270,15 @@ fn show(canvas: &mut Canvas, state: &State, deck: Option<&Deck>) -> Result<(), S
 
 impl ApplicationHandler<Wake> for App {
     fn new_events(&mut self, event_loop: &ActiveEventLoop, _: StartCause) {
-        let had_notice = self.state.notice.is_some();
+        let had_notice = self.state.session.notice.is_some();
         update(&mut self.state, Message::Tick(self.began.elapsed()));
-        if had_notice && self.state.notice.is_none() {
+        if had_notice && self.state.session.notice.is_none() {
             self.refresh();
         }
         if self.stop.load(Ordering::Relaxed) {
-            self.state.leaving = true;
+            self.state.session.leaving = true;
         }
-        if self.state.leaving {
+        if self.state.session.leaving {
             event_loop.exit();
         }
     }
@@ -391,7 +306,9 @@ impl ApplicationHandler<Wake> for App {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         match event {
-            WindowEvent::CloseRequested | WindowEvent::Destroyed => self.state.leaving = true,
+            WindowEvent::CloseRequested | WindowEvent::Destroyed => {
+                self.state.session.leaving = true
+            }
             WindowEvent::RedrawRequested => self.draw(),
             WindowEvent::Resized(_) | WindowEvent::ScaleFactorChanged { .. } => self.resized(),
             WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
@@ -403,8 +320,8 @@ impl ApplicationHandler<Wake> for App {
             }
             WindowEvent::CursorMoved { position, .. } => {
                 self.pointer = [position.x, position.y];
-                if self.state.drag.is_some() {
-                    self.take(Message::Mouse(Mouse::Move, self.pointer));
+                if self.state.session.drag.is_some() {
+                    self.take(WindowMessage::Mouse(Mouse::Move, self.pointer));
                 }
             }
             WindowEvent::MouseInput { state, button, .. } => {
@@ -417,19 +334,19 @@ impl ApplicationHandler<Wake> for App {
                     ElementState::Pressed => Mouse::Press(button),
                     ElementState::Released => Mouse::Release,
                 };
-                self.take(Message::Mouse(mouse, self.pointer));
+                self.take(WindowMessage::Mouse(mouse, self.pointer));
             }
             WindowEvent::MouseWheel { delta, .. } => {
                 let notches = match delta {
                     MouseScrollDelta::LineDelta(_, lines) => f64::from(lines),
                     MouseScrollDelta::PixelDelta(pixels) => pixels.y / NOTCH,
                 };
-                self.take(Message::Mouse(Mouse::Wheel(notches), self.pointer));
+                self.take(WindowMessage::Mouse(Mouse::Wheel(notches), self.pointer));
             }
             WindowEvent::DroppedFile(path) => self.tint(&path),
             _ => {}
         }
-        if self.state.leaving {
+        if self.state.session.leaving {
             event_loop.exit();
         }
     }

@@ -1,41 +1,44 @@
 //! From the state to pixels: what the window shows, and what its PNG shows.
 
 use super::places::Places;
-use super::state::{Overlay, Stage, State};
+use super::state::WindowState;
 use super::{sheets, strip};
 use crate::colour::Rgb;
-use crate::draw::{Look, Pane, draw_on};
+use crate::draw::{Pane, draw_on};
+use crate::look::Look;
 use crate::raster::{Pixels, Raster, Rect};
-use crate::text::{self, Style, Weight};
+use crate::session::{Overlay, Session, StagedScene, count};
+use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
 /// The pixels of a window of `width` times `height` pixels: a function of the state alone.
 #[must_use]
-pub fn compose(state: &State, (width, height): (usize, usize)) -> Raster {
+pub fn compose(state: &WindowState, (width, height): (usize, usize)) -> Raster {
     let mut raster = Raster::new(width, height, Rgb(0));
     compose_on(&mut raster.draw(), state);
     raster
 }
 
 /// The same over whatever is in a raster of the window's size.
-pub fn compose_on(raster: &mut Pixels<'_>, state: &State) {
+pub fn compose_on(raster: &mut Pixels<'_>, state: &WindowState) {
     let size = (raster.width(), raster.height());
-    let theme = &state.look.theme;
-    match &state.stage {
+    let session = &state.session;
+    let theme = &session.look.theme;
+    match &session.stage {
         Some(stage) => {
             let places = Places::with(state, stage, size);
-            picture(raster, state, stage, &places);
+            picture(raster, session, stage, &places);
             let below = places.picture.height;
             let rest = Rect::new(0, below, size.0, size.1.saturating_sub(below));
             raster.fill(rest, theme.panel, 255);
-            strip::paint(raster, state, stage, &places);
-            if let Some(arrival) = &state.banner {
+            strip::paint(raster, session, stage, &places);
+            if let Some(arrival) = &session.banner {
                 sheets::banner(raster, arrival, theme, &places);
             }
         }
-        None => waiting(raster, state),
+        None => waiting(raster, session),
     }
-    match &state.overlay {
+    match &session.overlay {
         Overlay::None => {}
         Overlay::Help => sheets::help(raster, theme),
         Overlay::Scenes(list) => sheets::scenes(raster, list, theme),
@@ -45,13 +48,13 @@ pub fn compose_on(raster: &mut Pixels<'_>, state: &State) {
 }
 
 /// The rasteriser's picture of the players.
-fn picture(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places) {
-    let look = look(state, stage);
+fn picture(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, places: &Places) {
+    let look = look(session, stage);
     let name = |kind| match kind {
         ArithmeticKind::Fixed => "fixed point",
         ArithmeticKind::Float => "floating point",
     };
-    let mut first = Pane::new(&stage.points, &stage.ways.history);
+    let mut first = Pane::new(&stage.points, stage.track.history());
     let height = places.picture.height;
     let Some(other) = &stage.other else {
         return draw_on(raster, &[first], &stage.home, &look, height);
@@ -63,33 +66,33 @@ fn picture(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Place
             ArithmeticKind::Fixed => ArithmeticKind::Float,
             ArithmeticKind::Float => ArithmeticKind::Fixed,
         }),
-        ..Pane::new(&other.points, &other.ways.history)
+        ..Pane::new(&other.points, other.track.history())
     };
     draw_on(raster, &[first, second], &stage.home, &look, height);
 }
 
 /// The look with what follows from the state.
-fn look(state: &State, stage: &Stage) -> Look {
-    let particles = strip::count(stage.points.len() as u64);
+fn look(session: &Session, stage: &StagedScene) -> Look {
+    let particles = count(stage.points.len() as u64);
     Look {
         caption: format!("{particles} particles"),
         turn: Some(f64::from(u8::from(stage.arrow() == Arrow::Backward))),
-        ..state.look.clone()
+        ..session.look.clone()
     }
 }
 
 /// A scene is being set up.
-fn waiting(raster: &mut Pixels<'_>, state: &State) {
-    let theme = &state.look.theme;
+fn waiting(raster: &mut Pixels<'_>, session: &Session) {
+    let theme = &session.look.theme;
     let (width, height) = (raster.width(), raster.height());
     raster.fill(raster.rect(), theme.background, 255);
-    if state.overlay == Overlay::None {
-        let style = Style {
+    if session.overlay == Overlay::None {
+        let style = TextStyle {
             size: (height / 30).clamp(8, 64),
             weight: Weight::Medium,
             colour: theme.faint,
         };
-        let text = format!("setting up {} …", state.request.name);
+        let text = format!("setting up {} …", session.request.name);
         let text = text::fitted(&style, &text, width as f64);
         text::write_around(raster, &style, 0.5 * width as f64, height as i64 / 2, &text);
     }

@@ -1,10 +1,11 @@
 //! Why there is no window.
 
 use crate::movie::MovieError;
+use crate::session::LostState;
 use loschmidt_runner::deck::OpeningError;
 use thiserror::Error;
 
-/// What else there is, where there is no window.
+/// The other ways to watch, told where there is no window.
 const ELSE: &str = "`loschmidt tui` shows the same in a terminal, `loschmidt movie` makes pictures";
 
 /// Why there is no window, or no longer.
@@ -25,12 +26,12 @@ pub enum WindowError {
     /// A library that is looked for at run time is missing.
     #[error("a window needs the library {0}, which is not on this system; {ELSE}")]
     Library(String),
-    /// A run is shown from where it was left, where the other arithmetic has not been.
+    /// A run goes on where it was left, and the other arithmetic has not been played up to there.
     #[error("{0} is a run; to see both arithmetics, play its scene anew: {0}/scene.toml --beside")]
     Beside(String),
     /// The state could not be kept.
     #[error("the state is lost: {0}")]
-    Lost(String),
+    Lost(#[from] LostState),
 }
 
 impl WindowError {
@@ -43,8 +44,8 @@ impl WindowError {
         }
     }
 
-    /// What went wrong on the way to a display, from its description. `set`: whether the environment
-    /// names a display.
+    /// What went wrong on the way to a display, from its description. `set`: whether the
+    /// environment names a display.
     pub(super) fn of_display(description: &str, set: bool) -> Self {
         match (library(description), set) {
             (Some(library), _) => Self::Library(library),
@@ -81,8 +82,9 @@ mod tests {
 
     #[test]
     fn a_missing_library_is_named() {
-        let loader = "OpenError { kind: Library, detail: \"opening library failed (libXcursor.so.1: \
-                      cannot open shared object file: No such file or directory)\" }";
+        let loader = "OpenError { kind: Library, detail: \"opening library failed \
+                      (libXcursor.so.1: cannot open shared object file: \
+                      No such file or directory)\" }";
         assert!(said(loader, true).contains("the library libXcursor.so.1,"));
         let panic = "Library libxkbcommon-x11.so could not be loaded.";
         assert!(said(panic, true).contains("the library libxkbcommon-x11.so,"));

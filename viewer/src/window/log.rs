@@ -1,6 +1,6 @@
 //! What happened, line by line on standard error, for scripts.
 
-use super::state::State;
+use super::state::WindowState;
 use loschmidt_runner::Arrow;
 use loschmidt_runner::deck::Report;
 use std::io::Write;
@@ -23,7 +23,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// A log that is written, or only kept.
+    /// A log; nothing is written where it is not wanted.
     pub fn new(wanted: bool) -> Self {
         Self {
             wanted,
@@ -81,7 +81,7 @@ impl Log {
     }
 
     /// A frame was drawn in this time.
-    pub fn drawn(&mut self, state: &State, time: Duration) {
+    pub fn drawn(&mut self, state: &WindowState, time: Duration) {
         self.frames += 1;
         self.drawing += time;
         let elapsed = self.since.elapsed();

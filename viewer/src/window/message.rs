@@ -1,73 +1,20 @@
-//! What the window is told, and what it asks for.
+//! What the window is told.
 
-use crate::face::{Choice, Request};
-use crate::keys::Key;
-use crate::picture::Picture;
-use loschmidt_runner::deck::{Command, Report};
-use std::path::PathBuf;
-use std::time::Duration;
+use crate::session::{Message, Mouse};
 
 /// What the window is told.
 #[derive(Debug)]
-pub enum Message {
-    /// A key was pressed.
-    Key(Key),
+pub enum WindowMessage {
+    /// What any face passes on to its session.
+    Session(Message),
     /// The mouse, and where it is, pixels from the top left.
     Mouse(Mouse, [f64; 2]),
     /// The window has this many pixels, and this many of them make one of a plain display.
     Resized(usize, usize, f64),
-    /// The deck has something to say; with the number of the deck, since reports of an earlier one may
-    /// still be under way.
-    Report(u64, Box<Report>),
-    /// Time goes by, counted from the start of the program.
-    Tick(Duration),
-    /// What can be opened.
-    Choices(Vec<Choice>),
-    /// A picture was written, or not.
-    Pictured(Result<PathBuf, String>),
-    /// A picture to tint the fluid with was read, or not.
-    Tint(Result<Picture, String>),
-    /// A scene could not even be read.
-    NotOpened(String),
-    /// A deck with this number has begun to open what was asked for.
-    Opening(u64, Request),
 }
 
-/// What the mouse did.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mouse {
-    /// A button went down.
-    Press(Button),
-    /// It moved, whatever is held.
-    Move,
-    /// A button went up.
-    Release,
-    /// The wheel turned by so many notches, towards the scene where positive.
-    Wheel(f64),
-}
-
-/// A button of the mouse.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Button {
-    /// The first.
-    Left,
-    /// The second.
-    Right,
-}
-
-/// What the window asks for.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Effect {
-    /// To tell the deck.
-    Deck(Command),
-    /// To open this in the place of what is open.
-    Open(Request),
-    /// To look for what can be opened: answered by [`Message::Choices`].
-    List,
-    /// To write what the window shows: answered by [`Message::Pictured`].
-    Picture,
-    /// To keep the state.
-    Keep,
-    /// To leave.
-    Quit,
+impl From<Message> for WindowMessage {
+    fn from(message: Message) -> Self {
+        Self::Session(message)
+    }
 }

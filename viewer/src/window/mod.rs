@@ -1,15 +1,15 @@
 //! The desktop window: a run in both directions of time, drawn by the rasteriser.
 //!
 //! ```text
-//! keys, mouse, deck --Message--> update --> State --compose--> Raster -> window | PNG
-//!                                   \--Effect--> deck, files
+//! keys, mouse, deck --WindowMessage--> update --> WindowState --compose--> Raster -> window | PNG
+//!                                         \--Effect--> deck, files
 //! ```
 //!
-//! [`update`] changes the state and asks for effects; it knows neither clock nor file nor window.
+//! The window is a face of a [`Session`](crate::session): [`update`] adds what the mouse does.
 //! [`compose`] makes all pixels, those of the window and those of its PNG: they are the same. The
-//! simulation has a thread of its own, the runner's [`Deck`](loschmidt_runner::Deck); this one draws,
-//! at most 60 pictures a second, and never waits for a step. No GPU is used, and no library of
-//! the system is needed to build it: those of X11 and Wayland are looked for when it runs.
+//! simulation has a thread of its own, the runner's [`Deck`](loschmidt_runner::Deck); this one
+//! draws, at most 60 pictures a second, and never waits for a step. No GPU is used, and no library
+//! of the system is needed to build it: those of X11 and Wayland are looked for when it runs.
 
 mod app;
 mod compose;
@@ -25,17 +25,16 @@ mod update;
 
 pub use compose::compose;
 pub use error::WindowError;
-pub use message::{Button, Effect, Message, Mouse};
+pub use message::WindowMessage;
 pub use places::Places;
-pub use state::{Drag, Other, Overlay, Stage, State, Ways};
+pub use state::WindowState;
 pub use update::update;
 
 use crate::colour::Theme;
 use crate::colouring::Colouring;
-use crate::draw::Look;
-use crate::face::MOST_THREADS;
-use crate::face::Request;
+use crate::look::Look;
 use crate::picture::Picture;
+use crate::session::{MOST_THREADS, Request};
 use app::{App, Wake};
 use clap::{Args, ValueEnum};
 use loschmidt_runner::Options;
@@ -52,13 +51,13 @@ const INTERRUPTED: u8 = 130;
 
 /// What to show, and how.
 #[derive(Args, Clone, Debug)]
-pub struct Arguments {
+pub struct WindowArguments {
     /// A scene file, a scene of the catalogue, or the directory of a run
     /// [default: dam-break with 5,000 particles]
     #[arg(value_name = "SCENE|RUN")]
     pub scene: Option<String>,
-    /// Override a key of the scene, for example particle_spacing=0.01; an empty value removes the key; may
-    /// be repeated
+    /// Override a key of the scene, for example particle_spacing=0.01; an empty value removes the
+    /// key; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Show fixed and floating point side by side
@@ -77,20 +76,33 @@ pub struct Arguments {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: (usize, usize),
     /// Threads of the executor [default: as many as there are processors]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_THREADS as u64))]
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u64).range(1..=MOST_THREADS as u64)
+    )]
     pub threads: Option<u64>,
     /// Tell on standard error what happens, for scripts
     #[arg(long)]
     pub log: bool,
 }
 
-/// Colours of the window.
+/// Names of the themes.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum ThemeName {
     /// Light on dark
     Dark,
     /// Dark on light
     Light,
+}
+
+impl From<ThemeName> for Theme {
+    fn from(name: ThemeName) -> Self {
+        match name {
+            ThemeName::Dark => Self::DARK,
+            ThemeName::Light => Self::LIGHT,
+        }
+    }
 }
 
 fn colour(text: &str) -> Result<Colouring, String> {
@@ -105,7 +117,7 @@ fn size(text: &str) -> Result<(usize, usize), String> {
         .ok_or_else(|| "two numbers from 320 to 8192, as in 1280x720".to_owned())
 }
 
-impl Arguments {
+impl WindowArguments {
     fn request(&self) -> Request {
         let (name, mut set) = match &self.scene {
             Some(name) => (name.clone(), Vec::new()),
@@ -126,10 +138,7 @@ impl Arguments {
     fn look(&self) -> Look {
         Look {
             colouring: self.color.clone().unwrap_or_default(),
-            theme: match self.theme {
-                ThemeName::Dark => Theme::DARK,
-                ThemeName::Light => Theme::LIGHT,
-            },
+            theme: self.theme.into(),
             ..Look::default()
         }
     }
@@ -141,7 +150,7 @@ impl Arguments {
 /// # Errors
 /// [`WindowError`].
 pub fn run(
-    arguments: &Arguments,
+    arguments: &WindowArguments,
     options: Options,
     stop: Arc<AtomicBool>,
 ) -> Result<Option<PathBuf>, WindowError> {
@@ -154,7 +163,7 @@ pub fn run(
     }
     let event_loop = event_loop()?;
     let handles = (event_loop.create_proxy(), event_loop.owned_display_handle());
-    let state = State::new(arguments.size, 1.0, arguments.look(), picture);
+    let state = WindowState::new(arguments.size, 1.0, arguments.look(), picture);
     let mut app = App::new(state, options, handles, stop, arguments.log);
     app.open(request, opening);
     let ended = event_loop.run_app(&mut app);
@@ -191,11 +200,11 @@ fn event_loop() -> Result<EventLoop<Wake>, WindowError> {
     }
 }
 
-/// The whole of a program that shows a window: [`run`], and what is said at the end. `name`: what is
-/// typed to go on, before the directory.
+/// The whole of a program that shows a window: [`run`], and what is said at the end. `name`: what
+/// is typed to go on, before the directory.
 #[must_use]
 pub fn program(
-    arguments: &Arguments,
+    arguments: &WindowArguments,
     options: Options,
     stop: &Arc<AtomicBool>,
     name: &str,

@@ -1,9 +1,11 @@
 //! Where the parts of the window are: the picture above, and below it a strip with the bar of time.
 
-use super::state::{Stage, State};
-use crate::draw::{Layout, Look};
+use super::state::WindowState;
+use crate::draw::PictureLayout;
 use crate::home::Home;
+use crate::look::Look;
 use crate::raster::Rect;
+use crate::session::StagedScene;
 
 /// The smallest window with a strip, pixels.
 const SMALLEST: (usize, usize) = (160, 120);
@@ -28,18 +30,16 @@ pub struct Places {
 impl Places {
     /// The places of a window; `None` as long as it shows nothing.
     #[must_use]
-    pub fn of(state: &State) -> Option<Self> {
-        state
-            .stage
-            .as_ref()
-            .map(|stage| Self::with(state, stage, state.size))
+    pub fn of(state: &WindowState) -> Option<Self> {
+        let stage = state.session.stage.as_ref()?;
+        Some(Self::with(state, stage, state.size))
     }
 
     /// The places in a window of this size, pixels.
     #[must_use]
-    pub fn with(state: &State, stage: &Stage, size: (usize, usize)) -> Self {
+    pub fn with(state: &WindowState, stage: &StagedScene, size: (usize, usize)) -> Self {
         let panes = 1 + usize::from(stage.other.is_some());
-        Self::sized(&stage.home, &state.look, panes, state.scale, size)
+        Self::sized(&stage.home, &state.session.look, panes, state.scale, size)
     }
 
     /// The places for so many players. `scale`: pixels that make one of a plain display.
@@ -51,7 +51,7 @@ impl Places {
         scale: f64,
         (width, height): (usize, usize),
     ) -> Self {
-        let plain = Layout::new(home, look, 1, width, height).em;
+        let plain = PictureLayout::new(home, look, 1, width, height).em;
         // Readable on a display of many pixels, however small the window.
         let em = plain.max((11.0 * scale) as usize).min(height / 8);
         let high = if width < SMALLEST.0 || height < SMALLEST.1 {
@@ -60,7 +60,7 @@ impl Places {
             9 * em / 2
         };
         let picture = Rect::new(0, 0, width, height - high);
-        let layout = Layout::new(home, look, panes, picture.width, picture.height);
+        let layout = PictureLayout::new(home, look, panes, picture.width, picture.height);
         let ends = (5 * em).min(width / 4);
         Self {
             picture,

@@ -1,24 +1,24 @@
 //! What lies over the rest: the keys, the arrival at the start, errors.
 
 use super::places::Places;
-use super::strip::{alarm, count};
+use super::strip::alarm;
 use crate::colour::{Rgb, Theme};
-use crate::face::{List, Panel};
 use crate::keys;
 use crate::raster::{Pixels, Rect};
-use crate::text::{self, Style, Weight};
+use crate::session::{List, Panel, because, count};
+use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::ArithmeticKind;
-use loschmidt_runner::deck::{Arrival, Meddling, Perturbation};
+use loschmidt_runner::deck::Arrival;
 
 /// A piece of a line: where it begins, in ems from the left of the sheet; what it says, and how.
-struct Piece {
+struct SheetText {
     at: f64,
     text: String,
     colour: Rgb,
     weight: Weight,
 }
 
-impl Piece {
+impl SheetText {
     fn new(at: f64, text: impl Into<String>, colour: Rgb, weight: Weight) -> Self {
         Self {
             at,
@@ -28,8 +28,8 @@ impl Piece {
         }
     }
 
-    fn style(&self, size: usize) -> Style {
-        Style {
+    fn style(&self, size: usize) -> TextStyle {
+        TextStyle {
             size,
             weight: self.weight,
             colour: self.colour,
@@ -37,7 +37,7 @@ impl Piece {
     }
 }
 
-type Line = Vec<Piece>;
+type SheetLine = Vec<SheetText>;
 
 /// Height of a line, ems.
 const LINE: f64 = 1.5;
@@ -48,7 +48,7 @@ fn sheet(
     raster: &mut Pixels<'_>,
     within: Rect,
     em: usize,
-    lines: &[Line],
+    lines: &[SheetLine],
     edge: Rgb,
     theme: &Theme,
 ) {
@@ -84,7 +84,7 @@ fn sheet(
 
 /// The keys.
 pub fn help(raster: &mut Pixels<'_>, theme: &Theme) {
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<SheetLine> = Vec::new();
     let mut group = "";
     for binding in keys::of_window() {
         let mut line = Vec::new();
@@ -93,15 +93,15 @@ pub fn help(raster: &mut Pixels<'_>, theme: &Theme) {
                 lines.push(Vec::new());
             }
             group = binding.group;
-            line.push(Piece::new(0.0, group, theme.forward, Weight::SemiBold));
+            line.push(SheetText::new(0.0, group, theme.forward, Weight::SemiBold));
         }
-        line.push(Piece::new(
+        line.push(SheetText::new(
             7.5,
             binding.names(),
             theme.text,
             Weight::SemiBold,
         ));
-        line.push(Piece::new(
+        line.push(SheetText::new(
             14.0,
             binding.meaning,
             theme.faint,
@@ -112,8 +112,8 @@ pub fn help(raster: &mut Pixels<'_>, theme: &Theme) {
     lines.push(Vec::new());
     let mouse = "a PNG dropped on the window tints the fluid";
     lines.push(vec![
-        Piece::new(0.0, "mouse", theme.forward, Weight::SemiBold),
-        Piece::new(7.5, mouse, theme.faint, Weight::Medium),
+        SheetText::new(0.0, "mouse", theme.forward, Weight::SemiBold),
+        SheetText::new(7.5, mouse, theme.faint, Weight::Medium),
     ]);
     let within = raster.rect().shrunk(4);
     let em = raster.height() / 48 + 2;
@@ -132,9 +132,9 @@ pub fn scenes(raster: &mut Pixels<'_>, list: &List, theme: &Theme) {
             false => ("", theme.text, Weight::Medium),
         };
         lines.push(vec![
-            Piece::new(0.0, mark, colour, weight),
-            Piece::new(1.0, choice.name.clone(), colour, weight),
-            Piece::new(15.0, choice.title.clone(), theme.faint, Weight::Medium),
+            SheetText::new(0.0, mark, colour, weight),
+            SheetText::new(1.0, choice.name.clone(), colour, weight),
+            SheetText::new(15.0, choice.title.clone(), theme.faint, Weight::Medium),
         ]);
     }
     let keys = "arrows choose   Enter opens   Esc goes back";
@@ -154,21 +154,26 @@ pub fn parameters(raster: &mut Pixels<'_>, panel: &Panel, theme: &Theme) {
             theme.text
         };
         lines.push(vec![
-            Piece::new(0.0, *name, colour, Weight::SemiBold),
-            Piece::new(
+            SheetText::new(0.0, *name, colour, Weight::SemiBold),
+            SheetText::new(
                 10.0,
                 panel.shown(n, ['<', '>', '|']),
                 colour,
                 Weight::Medium,
             ),
-            Piece::new(20.0, *unit, theme.faint, Weight::Medium),
+            SheetText::new(20.0, *unit, theme.faint, Weight::Medium),
         ]);
     }
     if let Some(problem) = &panel.problem {
         lines.push(Vec::new());
         // Without the excerpt, which is laid out for letters of one width.
         for text in problem.lines().filter(|line| !line.starts_with([' ', '|'])) {
-            lines.push(vec![Piece::new(0.0, text, alarm(theme), Weight::Medium)]);
+            lines.push(vec![SheetText::new(
+                0.0,
+                text,
+                alarm(theme),
+                Weight::Medium,
+            )]);
         }
     }
     let keys = "type a value   arrows choose   Enter starts anew   Esc goes back";
@@ -184,23 +189,23 @@ pub fn parameters(raster: &mut Pixels<'_>, panel: &Panel, theme: &Theme) {
     );
 }
 
-fn headed(title: &str, theme: &Theme) -> Vec<Line> {
-    let title = Piece::new(0.0, title, theme.forward, Weight::SemiBold);
+fn headed(title: &str, theme: &Theme) -> Vec<SheetLine> {
+    let title = SheetText::new(0.0, title, theme.forward, Weight::SemiBold);
     vec![vec![title], Vec::new()]
 }
 
-fn footed(lines: &mut Vec<Line>, keys: &str, theme: &Theme) {
+fn footed(lines: &mut Vec<SheetLine>, keys: &str, theme: &Theme) {
     lines.push(Vec::new());
-    lines.push(vec![Piece::new(0.0, keys, theme.faint, Weight::Medium)]);
+    lines.push(vec![SheetText::new(0.0, keys, theme.faint, Weight::Medium)]);
 }
 
 /// Why nothing can be shown.
 pub fn error(raster: &mut Pixels<'_>, why: &str, theme: &Theme) {
     let edge = alarm(theme);
-    let title = Piece::new(0.0, "this cannot be shown", edge, Weight::SemiBold);
-    let mut lines: Vec<Line> = vec![vec![title], Vec::new()];
+    let title = SheetText::new(0.0, "this cannot be shown", edge, Weight::SemiBold);
+    let mut lines: Vec<SheetLine> = vec![vec![title], Vec::new()];
     for text in why.lines() {
-        lines.push(vec![Piece::new(0.0, text, theme.text, Weight::Medium)]);
+        lines.push(vec![SheetText::new(0.0, text, theme.text, Weight::Medium)]);
     }
     footed(&mut lines, "q quits   o opens another scene", theme);
     let within = raster.rect().shrunk(4);
@@ -224,11 +229,11 @@ pub fn banner(raster: &mut Pixels<'_>, arrival: &Arrival, theme: &Theme, places:
     sheet(raster, within, places.em, &lines, edge, theme);
 }
 
-fn digests(arrival: &Arrival, theme: &Theme) -> [Line; 2] {
+fn digests(arrival: &Arrival, theme: &Theme) -> [SheetLine; 2] {
     let line = |name: &str, digest: String| {
         vec![
-            Piece::new(0.0, name, theme.faint, Weight::Medium),
-            Piece::new(10.5, digest, theme.text, Weight::Medium),
+            SheetText::new(0.0, name, theme.faint, Weight::Medium),
+            SheetText::new(10.5, digest, theme.text, Weight::Medium),
         ]
     };
     [
@@ -237,23 +242,23 @@ fn digests(arrival: &Arrival, theme: &Theme) -> [Line; 2] {
     ]
 }
 
-fn returned(arrival: &Arrival, theme: &Theme) -> Vec<Line> {
+fn returned(arrival: &Arrival, theme: &Theme) -> Vec<SheetLine> {
     let steps = count(arrival.farthest.unsigned_abs());
     let title = "Time came back: bit-identical";
     let story = format!("{steps} steps out, and back; every bit is as it was");
     let mut lines = vec![
-        vec![Piece::new(0.0, title, theme.second, Weight::SemiBold)],
+        vec![SheetText::new(0.0, title, theme.second, Weight::SemiBold)],
         Vec::new(),
     ];
     lines.extend(digests(arrival, theme));
     lines.push(Vec::new());
-    lines.push(vec![Piece::new(0.0, story, theme.text, Weight::Medium)]);
+    lines.push(vec![SheetText::new(0.0, story, theme.text, Weight::Medium)]);
     let keys = "r runs it again, any other key goes on";
-    lines.push(vec![Piece::new(0.0, keys, theme.faint, Weight::Medium)]);
+    lines.push(vec![SheetText::new(0.0, keys, theme.faint, Weight::Medium)]);
     lines
 }
 
-fn missed(arrival: &Arrival, theme: &Theme) -> Vec<Line> {
+fn missed(arrival: &Arrival, theme: &Theme) -> Vec<SheetLine> {
     let c = &arrival.comparison;
     let story = format!(
         "{} {} astray, the farthest {:.1e} m from home",
@@ -267,12 +272,17 @@ fn missed(arrival: &Arrival, theme: &Theme) -> Vec<Line> {
     );
     let title = "Time did not come back";
     let mut lines = vec![
-        vec![Piece::new(0.0, title, alarm(theme), Weight::SemiBold)],
+        vec![SheetText::new(0.0, title, alarm(theme), Weight::SemiBold)],
         Vec::new(),
-        vec![Piece::new(0.0, story, theme.text, Weight::Medium)],
+        vec![SheetText::new(0.0, story, theme.text, Weight::Medium)],
     ];
     let mut reason = |text: String| {
-        lines.push(vec![Piece::new(0.0, text, theme.backward, Weight::Medium)]);
+        lines.push(vec![SheetText::new(
+            0.0,
+            text,
+            theme.backward,
+            Weight::Medium,
+        )]);
     };
     for meddling in arrival.meddling.iter().rev().take(2).rev() {
         reason(because(meddling));
@@ -283,22 +293,6 @@ fn missed(arrival: &Arrival, theme: &Theme) -> Vec<Line> {
     lines.push(Vec::new());
     lines.extend(digests(arrival, theme));
     let keys = "any key goes on";
-    lines.push(vec![Piece::new(0.0, keys, theme.faint, Weight::Medium)]);
+    lines.push(vec![SheetText::new(0.0, keys, theme.faint, Weight::Medium)]);
     lines
-}
-
-fn because(meddling: &Meddling) -> String {
-    let time = meddling.time;
-    match meddling.what {
-        Perturbation::Flipped(particle) => {
-            format!("one bit of particle {particle} was flipped at t = {time:.4} s")
-        }
-        Perturbation::Switched(kind) => {
-            let name = match kind {
-                ArithmeticKind::Fixed => "fixed",
-                ArithmeticKind::Float => "floating",
-            };
-            format!("the arithmetic became {name} point at t = {time:.4} s")
-        }
-    }
 }

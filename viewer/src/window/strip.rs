@@ -1,37 +1,36 @@
 //! Below the picture: the bar of time, what the simulation does, and the keys that one needs most.
 
 use super::places::Places;
-use super::state::{Stage, State};
 use crate::colour::{Rgb, Theme};
-use crate::face::Tone;
 use crate::keys::{self, Action};
 use crate::plot::number;
 use crate::raster::{Mask, Pixels, Rect};
-use crate::text::{self, Style, Weight};
+use crate::session::{Session, StagedScene, Tone, count};
+use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
-/// Of what is not as it should be.
+/// The colour of what is not as it should be.
 pub fn alarm(theme: &Theme) -> Rgb {
     theme.backward
 }
 
 /// Paints the strip.
-pub fn paint(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places) {
+pub fn paint(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, places: &Places) {
     if places.strip.height == 0 {
         return;
     }
-    let theme = &state.look.theme;
+    let theme = &session.look.theme;
     let rule = Rect {
         height: 1,
         ..places.strip
     };
     raster.fill(rule, theme.rule, 255);
     bar(raster, stage, places, theme);
-    words(raster, state, stage, places);
+    words(raster, session, stage, places);
 }
 
 /// The bar of time: what was reached, the present, where a seek leads.
-fn bar(raster: &mut Pixels<'_>, stage: &Stage, places: &Places, theme: &Theme) {
+fn bar(raster: &mut Pixels<'_>, stage: &StagedScene, places: &Places, theme: &Theme) {
     let (bar, em, status) = (places.bar, places.em as f64, &stage.status);
     if bar.width < 8 {
         return;
@@ -73,7 +72,7 @@ fn bar(raster: &mut Pixels<'_>, stage: &Stage, places: &Places, theme: &Theme) {
     }
     let here = at(status.position);
     paint(theme.text, 255, &|m| m.line(here, here, 0.8 * em));
-    let faint = Style {
+    let faint = TextStyle {
         size: places.em * 6 / 7,
         weight: Weight::Medium,
         colour: theme.faint,
@@ -86,10 +85,11 @@ fn bar(raster: &mut Pixels<'_>, stage: &Stage, places: &Places, theme: &Theme) {
     text::write(raster, &faint, right, below, &format!("{} s", number(end)));
 }
 
-/// Left what the simulation does, right a notice, or who is astray, or the keys.
-fn words(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places) {
-    let (theme, em) = (&state.look.theme, places.em);
-    let style = |colour, weight| Style {
+/// On the left what the simulation does; on the right a notice, or how many particles are astray,
+/// or the keys.
+fn words(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, places: &Places) {
+    let (theme, em) = (&session.look.theme, places.em);
+    let style = |colour, weight| TextStyle {
         size: em * 6 / 7,
         weight,
         colour,
@@ -106,7 +106,7 @@ fn words(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places)
         x = text::write(raster, &style, x, baseline, &text) + 0.8 * gap;
     }
     let room = end - x - gap;
-    let told = match (&state.notice, astray(stage, theme)) {
+    let told = match (&session.notice, astray(stage, theme)) {
         (Some(notice), _) => {
             let colour = match notice.tone {
                 Tone::Done => theme.second,
@@ -128,10 +128,10 @@ fn words(raster: &mut Pixels<'_>, state: &State, stage: &Stage, places: &Places)
     }
 }
 
-type Piece = (String, Rgb, Weight);
+type ColouredText = (String, Rgb, Weight);
 
-/// What the simulation does.
-fn doing(stage: &Stage, theme: &Theme) -> Vec<Piece> {
+/// What the simulation does, in pieces from left to right.
+fn doing(stage: &StagedScene, theme: &Theme) -> Vec<ColouredText> {
     let status = &stage.status;
     let dt = stage.opened.scene.time_step();
     let state = if let Some(seek) = status.seek {
@@ -184,8 +184,8 @@ fn doing(stage: &Stage, theme: &Theme) -> Vec<Piece> {
     pieces
 }
 
-/// On the way back: who is not on the way home.
-fn astray(stage: &Stage, theme: &Theme) -> Option<(String, Rgb)> {
+/// On the way back: how many particles are not on their way home.
+fn astray(stage: &StagedScene, theme: &Theme) -> Option<(String, Rgb)> {
     let status = &stage.status;
     let total = count(stage.points.len() as u64);
     let back = status.arrow == Arrow::Backward || status.seek.is_some();
@@ -210,7 +210,7 @@ fn astray(stage: &Stage, theme: &Theme) -> Option<(String, Rgb)> {
 }
 
 /// The keys that one needs most, as many as `fits` finds room for.
-fn hints(stage: &Stage, fits: impl Fn(&str) -> bool) -> String {
+fn hints(stage: &StagedScene, fits: impl Fn(&str) -> bool) -> String {
     let play = if stage.status.playing && !stage.status.at_start {
         "pause"
     } else {
@@ -224,9 +224,12 @@ fn hints(stage: &Stage, fits: impl Fn(&str) -> bool) -> String {
         (Action::Colour, "colour"),
         (Action::Quit, "quit"),
     ];
+    let table = keys::of_window();
     let mut line = String::new();
     for (action, words) in hints {
-        let Some(key) = key_of(action) else { continue };
+        let Some(key) = keys::key_of(&table, action) else {
+            continue;
+        };
         let longer = if line.is_empty() {
             format!("{key} {words}")
         } else {
@@ -238,26 +241,4 @@ fn hints(stage: &Stage, fits: impl Fn(&str) -> bool) -> String {
         line = longer;
     }
     line
-}
-
-/// The first key of an action.
-fn key_of(action: Action) -> Option<String> {
-    let all = keys::of_window();
-    let mut pairs = all.iter().flat_map(|binding| binding.keys);
-    pairs
-        .find(|(_, a)| *a == action)
-        .map(|(key, _)| key.to_string())
-}
-
-/// A number with commas.
-pub fn count(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -1,12 +1,11 @@
 //! What keys do, as effects and in the state.
 
 use super::Bench;
-use crate::dashboard::message::{Effect, Message, Mouse};
-use crate::dashboard::state::Overlay;
+use crate::dashboard::message::DashboardMessage;
 use crate::dashboard::view::Areas;
 use loschmidt_runner::deck::{Command, Report};
 use loschmidt_runner::{ArithmeticKind, Arrow};
-use loschmidt_viewer::face::{Choice, Panel, Tone};
+use loschmidt_viewer::session::{Choice, Effect, Message, Mouse, Overlay, Panel, Tone};
 use loschmidt_viewer::{Colouring, Key, Projection};
 
 fn drop() -> Bench {
@@ -18,11 +17,11 @@ fn every_colouring_comes_round() {
     let mut bench = drop();
     let mut seen = Vec::new();
     for _ in Colouring::MEASURED {
-        seen.push(bench.state.look.colouring.clone());
+        seen.push(bench.state.session.look.colouring.clone());
         bench.key(Key::Char('c'));
     }
     assert_eq!(seen, Colouring::MEASURED);
-    assert_eq!(bench.state.look.colouring, seen[0]);
+    assert_eq!(bench.state.session.look.colouring, seen[0]);
 }
 
 #[test]
@@ -36,7 +35,7 @@ fn an_arrow_key_is_one_step_in_either_direction() {
     bench.key(Key::Char('r'));
     bench.key(Key::Right);
     bench.shot_at(11);
-    let status = &bench.state.stage.as_ref().expect("a scene").status;
+    let status = &bench.state.session.stage.as_ref().expect("a scene").status;
     assert_eq!(status.arrow, Arrow::Backward);
     assert!(!status.playing);
 }
@@ -44,7 +43,16 @@ fn an_arrow_key_is_one_step_in_either_direction() {
 #[test]
 fn a_key_that_is_held_adds_up() {
     let mut bench = drop();
-    let pace = |bench: &Bench| bench.state.stage.as_ref().expect("a scene").status.pace;
+    let pace = |bench: &Bench| {
+        bench
+            .state
+            .session
+            .stage
+            .as_ref()
+            .expect("a scene")
+            .status
+            .pace
+    };
     let before = pace(&bench);
     // Six paces to a decade, and nothing heard of in between.
     for _ in 0..12 {
@@ -59,7 +67,7 @@ fn before_the_start_there_is_nothing() {
     bench.seek(0);
     bench.key(Key::Left);
     bench.until(|report| matches!(report, Report::Refused(_)));
-    let notice = bench.state.notice.as_ref().expect("a notice");
+    let notice = bench.state.session.notice.as_ref().expect("a notice");
     assert_eq!(notice.tone, Tone::Refused);
     assert!(notice.text.contains("start"), "{}", notice.text);
 }
@@ -72,11 +80,11 @@ fn floating_point_turns_but_does_not_seek() {
     bench.until(|report| matches!(report, Report::Meddled(_)));
     bench.key(Key::Left);
     bench.until(|report| matches!(report, Report::Refused(_)));
-    let notice = bench.state.notice.as_ref().expect("a notice");
+    let notice = bench.state.session.notice.as_ref().expect("a notice");
     assert!(notice.text.contains("floating-point"), "{}", notice.text);
     bench.key(Key::Char('r'));
     bench.until(|report| matches!(report, Report::Turned(Arrow::Backward)));
-    let status = &bench.state.stage.as_ref().expect("a scene").status;
+    let status = &bench.state.session.stage.as_ref().expect("a scene").status;
     assert_eq!(status.arithmetic, ArithmeticKind::Float);
 }
 
@@ -91,14 +99,14 @@ fn the_standard_scheme_refuses_to_turn_and_says_why() {
     for key in [Key::Char('r'), Key::Left, Key::Home] {
         bench.key(key);
         bench.until(|report| matches!(report, Report::Refused(_)));
-        let notice = bench.state.notice.take().expect("a notice");
+        let notice = bench.state.session.notice.take().expect("a notice");
         assert!(
             notice.text.contains("not symmetric in time"),
             "{}",
             notice.text
         );
     }
-    let stage = bench.state.stage.as_ref().expect("a scene");
+    let stage = bench.state.session.stage.as_ref().expect("a scene");
     assert_eq!((stage.arrow(), stage.status.position), (Arrow::Forward, 20));
 }
 
@@ -106,7 +114,7 @@ fn the_standard_scheme_refuses_to_turn_and_says_why() {
 fn a_turn_is_shown_before_the_simulation_has_heard_of_it() {
     let mut bench = drop();
     bench.key(Key::Char('r'));
-    let stage = bench.state.stage.as_ref().expect("a scene");
+    let stage = bench.state.session.stage.as_ref().expect("a scene");
     assert_eq!(stage.status.arrow, Arrow::Forward);
     assert_eq!(stage.arrow(), Arrow::Backward);
 }
@@ -117,19 +125,19 @@ fn the_wheel_zooms_around_the_mouse() {
     let area = Areas::of(bench.state.size).field;
     let (column, row) = (area.x + area.width / 4, area.y + area.height / 3);
     let under = |bench: &Bench| {
-        let stage = bench.state.stage.as_ref().expect("a scene");
+        let stage = bench.state.session.stage.as_ref().expect("a scene");
         let (w, h) = (usize::from(area.width), 2 * usize::from(area.height));
-        let projection = Projection::new(&stage.home, &bench.state.look.view, w, h);
+        let projection = Projection::new(&stage.home, &bench.state.session.look.view, w, h);
         let x = f64::from(column - area.x) + 0.5;
         let y = 2.0 * f64::from(row - area.y) + 1.0;
         projection.unproject(x, y)
     };
     let before = under(&bench);
     for _ in 0..5 {
-        bench.tell(Message::Mouse(Mouse::WheelUp, column, row));
+        bench.tell(DashboardMessage::Mouse(Mouse::Wheel(1.0), column, row));
     }
     let after = under(&bench);
-    assert!(bench.state.look.view.zoom > 1.9);
+    assert!(bench.state.session.look.view.zoom > 1.9);
     assert!((before[0] - after[0]).abs() < 1e-9 && (before[1] - after[1]).abs() < 1e-9);
 }
 
@@ -147,8 +155,8 @@ fn the_panel_starts_the_scene_anew_with_its_values() {
     bench.key(Key::Char('0'));
     // No threads at all is refused, and the panel stays.
     assert_eq!(bench.key(Key::Enter), []);
-    let Overlay::Parameters(Panel { problem, .. }) = &bench.state.overlay else {
-        panic!("{:?}", bench.state.overlay);
+    let Overlay::Parameters(Panel { problem, .. }) = &bench.state.session.overlay else {
+        panic!("{:?}", bench.state.session.overlay);
     };
     assert!(problem.as_ref().is_some_and(|p| p.contains("1 to 1024")));
     bench.key(Key::Backspace);
@@ -185,7 +193,7 @@ fn the_scene_begins_anew_with_nothing_done_to_it() {
     let mut bench = drop();
     bench.key(Key::Char('b'));
     let effects = bench.key(Key::Char('n'));
-    assert_eq!(effects, [Effect::Open(bench.state.request.clone())]);
+    assert_eq!(effects, [Effect::Open(bench.state.session.request.clone())]);
 }
 
 #[test]
@@ -198,9 +206,9 @@ fn at_the_start_the_turned_time_stands_until_it_is_turned_again() {
     bench.deck.send(Command::Pace(1e3));
     bench.until(|report| matches!(report, Report::Arrived(_)));
     bench.shot_at(0);
-    bench.state.banner = None;
+    bench.state.session.banner = None;
     assert_eq!(bench.key(Key::Space), []);
-    let notice = bench.state.notice.as_ref().expect("a notice");
+    let notice = bench.state.session.notice.as_ref().expect("a notice");
     assert!(notice.text.contains("r reverses it"), "{}", notice.text);
     bench.key(Key::Char('r'));
     bench.until(|report| matches!(report, Report::Shot(shot) if shot.status.position > 0));

@@ -1,12 +1,12 @@
-//! Whole screens at three sizes. Below the characters stands a hash of all colours, so that a picture
-//! of the fluid is compared pixel by pixel.
+//! Whole screens at three sizes. Below the characters stands a hash of all colours, so that a
+//! picture of the fluid is compared pixel by pixel.
 
 use super::{Bench, screen, text};
-use crate::dashboard::message::Message;
-use crate::dashboard::state::{Overlay, State};
+use crate::dashboard::state::{DashboardState, Depth};
 use loschmidt_core::digest::hash;
 use loschmidt_runner::deck::Report;
 use loschmidt_viewer::Key;
+use loschmidt_viewer::session::{Message, Overlay};
 use ratatui::buffer::Buffer;
 
 const SIZES: [(u16, u16); 3] = [(200, 60), (100, 30), (60, 20)];
@@ -29,12 +29,15 @@ fn colours(buffer: &Buffer) -> String {
     hash.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-fn assert_screens(name: &str, state: &mut State) {
+fn assert_screens(name: &str, state: &mut DashboardState) {
     for size in SIZES {
         state.size = size;
         let buffer = screen(state);
         let shown = format!("{}colours {}\n", text(&buffer), colours(&buffer));
-        insta::with_settings!({ snapshot_path => "../snapshots", prepend_module_to_snapshot => false }, {
+        let mut settings = insta::Settings::clone_current();
+        settings.set_snapshot_path("../snapshots");
+        settings.set_prepend_module_to_snapshot(false);
+        settings.bind(|| {
             insta::assert_snapshot!(format!("{name}-{}x{}", size.0, size.1), shown);
         });
     }
@@ -42,7 +45,7 @@ fn assert_screens(name: &str, state: &mut State) {
 
 /// What depends on the machine.
 fn neutral(bench: &mut Bench) {
-    let stage = bench.state.stage.as_mut().expect("a scene");
+    let stage = bench.state.session.stage.as_mut().expect("a scene");
     stage.opened.options.threads = std::num::NonZeroUsize::MIN;
     stage.status.pace = 0.03;
     stage.status.keeps_up = true;
@@ -53,7 +56,7 @@ fn running() {
     let mut bench = dam();
     bench.seek(1200);
     neutral(&mut bench);
-    let stage = bench.state.stage.as_mut().expect("a scene");
+    let stage = bench.state.session.stage.as_mut().expect("a scene");
     stage.status.playing = true;
     stage.status.steps_per_second = 60.0;
     assert_screens("running", &mut bench.state);
@@ -67,7 +70,7 @@ fn reversed() {
     bench.until(|report| matches!(report, Report::Turned(_)));
     bench.seek(700);
     neutral(&mut bench);
-    let stage = bench.state.stage.as_mut().expect("a scene");
+    let stage = bench.state.session.stage.as_mut().expect("a scene");
     stage.status.playing = true;
     stage.status.steps_per_second = 60.0;
     assert_screens("reversed", &mut bench.state);
@@ -84,6 +87,7 @@ fn returned() {
     assert!(
         bench
             .state
+            .session
             .banner
             .as_ref()
             .is_some_and(|a| a.comparison.is_exact())
@@ -103,6 +107,7 @@ fn perturbed() {
     assert!(
         bench
             .state
+            .session
             .banner
             .as_ref()
             .is_some_and(|a| !a.comparison.is_exact())
@@ -116,14 +121,15 @@ fn help() {
     bench.seek(300);
     bench.key(Key::Char('?'));
     neutral(&mut bench);
-    assert_eq!(bench.state.overlay, Overlay::Help(0));
+    assert_eq!(bench.state.session.overlay, Overlay::Help);
     assert_screens("help", &mut bench.state);
 }
 
 #[test]
 fn error() {
-    let mut state = State::new(Default::default(), SIZES[0], Default::default());
-    let why = "the scene needs about 3.2 TiB of memory and 20 GiB are available; choose a larger particle_spacing";
+    let mut state = DashboardState::new(Depth::True, SIZES[0]);
+    let why = "the scene needs about 3.2 TiB of memory and 20 GiB are available; \
+               choose a larger particle_spacing";
     super::update(
         &mut state,
         Message::Report(0, Box::new(Report::Failed(why.to_owned()))),

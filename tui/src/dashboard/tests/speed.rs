@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 #[test]
 fn a_key_is_answered_within_50_ms_at_80_000_particles() {
     let mut bench = Bench::open("dam-break", &[], (200, 60));
-    let stage = bench.state.stage.as_ref().expect("a scene");
+    let stage = bench.state.session.stage.as_ref().expect("a scene");
     assert_eq!(stage.points.len(), 80_000);
     bench.deck.send(Command::Pace(1e3));
     let mut drawn = Vec::new();

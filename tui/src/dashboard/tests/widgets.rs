@@ -1,10 +1,11 @@
 //! Claims about single views.
 
 use super::{Bench, screen, text};
-use crate::dashboard::message::{Message, Mouse};
-use crate::dashboard::state::{Depth, State};
+use crate::dashboard::message::DashboardMessage;
+use crate::dashboard::state::{DashboardState, Depth};
 use crate::dashboard::view::Areas;
 use loschmidt_runner::deck::Report;
+use loschmidt_viewer::session::{Button, Mouse};
 use loschmidt_viewer::{Key, Track, field, keys};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -20,10 +21,16 @@ fn dam() -> Bench {
 fn a_cell_of_the_field_is_two_pixels_of_the_rasteriser() {
     let bench = dam();
     let (state, buffer) = (&bench.state, bench.screen());
-    let stage = state.stage.as_ref().expect("a scene");
+    let stage = state.session.stage.as_ref().expect("a scene");
     let area = Areas::of(state.size).field;
     let (columns, rows) = (usize::from(area.width), usize::from(area.height));
-    let raster = field(&stage.points, &stage.home, &state.look, columns, 2 * rows);
+    let raster = field(
+        &stage.points,
+        &stage.home,
+        &state.session.look,
+        columns,
+        2 * rows,
+    );
     let rgb = |colour: Color| match colour {
         Color::Rgb(r, g, b) => [r, g, b],
         other => panic!("{other:?}"),
@@ -51,7 +58,7 @@ fn without_colours_the_fluid_is_dots_and_nothing_is_coloured() {
     assert!(buffer.content.iter().all(plain));
     let area = Areas::of(bench.state.size).field;
     let dots = inside(&buffer, area, |s| ('\u{2801}'..='\u{28ff}').contains(&s));
-    let stage = bench.state.stage.as_ref().expect("a scene");
+    let stage = bench.state.session.stage.as_ref().expect("a scene");
     // 200 particles cover 2 m² of the box of 4 m by 3 m, a cell in eight or so.
     assert!(
         dots > usize::from(area.width * area.height) / 12,
@@ -111,7 +118,7 @@ fn the_environment_says_how_many_colours_there_are() {
 }
 
 /// The characters of the plots.
-fn plots(state: &State) -> Vec<String> {
+fn plots(state: &DashboardState) -> Vec<String> {
     let areas = Areas::of(state.size);
     let buffer = screen(state);
     let cells = |area: Rect| {
@@ -135,7 +142,7 @@ fn the_way_back_is_drawn_dot_by_dot_on_the_way_out() {
     bench.key(Key::Home);
     bench.shot_at(0);
     let both = plots(&bench.state);
-    let stage = bench.state.stage.as_mut().expect("a scene");
+    let stage = bench.state.session.stage.as_mut().expect("a scene");
     assert!(stage.track.back().len() > 5);
     let mut out = Track::default();
     for row in stage.track.out() {
@@ -188,7 +195,14 @@ fn the_banner_shows_both_digests_until_a_key() {
     bench.key(Key::Char('r'));
     bench.key(Key::Home);
     bench.shot_at(0);
-    let digest = bench.state.stage.as_ref().expect("a scene").opened.digest;
+    let digest = bench
+        .state
+        .session
+        .stage
+        .as_ref()
+        .expect("a scene")
+        .opened
+        .digest;
     for size in [(200, 60), (60, 20)] {
         bench.state.size = size;
         let shown = text(&bench.screen());
@@ -219,15 +233,19 @@ fn a_flipped_bit_is_counted_and_told_of() {
 fn a_click_on_the_bar_goes_there_by_integrating() {
     let mut bench = dam();
     let areas = Areas::of(bench.state.size);
-    let span = bench.state.stage.as_ref().expect("a scene").span();
+    let span = bench.state.session.stage.as_ref().expect("a scene").span();
     for column in [
         areas.bar.x,
         areas.bar.x + areas.bar.width / 10,
         areas.bar.right() - 1,
     ] {
         let step = areas.steps_at(column, span);
-        bench.tell(Message::Mouse(Mouse::Press, column, areas.bar.y));
-        bench.tell(Message::Mouse(Mouse::Release, column, areas.bar.y));
+        bench.tell(DashboardMessage::Mouse(
+            Mouse::Press(Button::Left),
+            column,
+            areas.bar.y,
+        ));
+        bench.tell(DashboardMessage::Mouse(Mouse::Release, column, areas.bar.y));
         bench.shot_at(step);
     }
     assert_eq!(areas.steps_at(areas.bar.x, span), 0);

@@ -2,9 +2,10 @@
 
 use super::ink::Ink;
 use super::numbers::{count, short};
-use super::overlays::{Line, sheet};
+use super::overlays::{StyledLine, sheet};
 use loschmidt_runner::ArithmeticKind;
-use loschmidt_runner::deck::{Arrival, Meddling, Perturbation};
+use loschmidt_runner::deck::Arrival;
+use loschmidt_viewer::session::because;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
@@ -29,7 +30,7 @@ pub fn render(arrival: &Arrival, field: Rect, whole: Rect, buf: &mut Buffer, ink
     sheet("", &lines, Some(colour), area, buf, ink);
 }
 
-fn digests(arrival: &Arrival, ink: &Ink) -> [Line; 2] {
+fn digests(arrival: &Arrival, ink: &Ink) -> [StyledLine; 2] {
     let line =
         |name: &str, digest: String| vec![(format!("{name}  "), ink.faint()), (digest, ink.text())];
     [
@@ -41,7 +42,7 @@ fn digests(arrival: &Arrival, ink: &Ink) -> [Line; 2] {
     ]
 }
 
-fn returned(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
+fn returned(arrival: &Arrival, ink: &Ink) -> Vec<StyledLine> {
     let strong = ink
         .of_colour(ink.success_colour())
         .add_modifier(Modifier::BOLD);
@@ -63,7 +64,7 @@ fn returned(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
     lines
 }
 
-fn missed(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
+fn missed(arrival: &Arrival, ink: &Ink) -> Vec<StyledLine> {
     let c = &arrival.comparison;
     let particles = if c.astray == 1 {
         "particle"
@@ -94,20 +95,4 @@ fn missed(arrival: &Arrival, ink: &Ink) -> Vec<Line> {
     lines.extend(digests(arrival, ink));
     lines.push(vec![("any key goes on".to_owned(), ink.faint())]);
     lines
-}
-
-fn because(meddling: &Meddling) -> String {
-    let time = meddling.time;
-    match meddling.what {
-        Perturbation::Flipped(particle) => {
-            format!("one bit of particle {particle} was flipped at t = {time:.4} s")
-        }
-        Perturbation::Switched(kind) => {
-            let name = match kind {
-                ArithmeticKind::Fixed => "fixed",
-                ArithmeticKind::Float => "floating",
-            };
-            format!("the arithmetic became {name} point at t = {time:.4} s")
-        }
-    }
 }

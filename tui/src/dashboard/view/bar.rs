@@ -1,17 +1,17 @@
 //! The foot: the bar of time, the notice, the keys that one needs most.
 
-use super::super::state::Stage;
 use super::ink::Ink;
 use super::numbers::{count, short};
 use super::{Areas, Piece, width, write, write_right};
 use loschmidt_runner::Arrow;
-use loschmidt_viewer::Action;
-use loschmidt_viewer::face::{Notice, Tone};
+use loschmidt_viewer::session::StagedScene;
+use loschmidt_viewer::session::{Notice, Tone};
+use loschmidt_viewer::{Action, keys};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 /// Draws the bar of time: what was reached, the present, where a seek leads.
-pub fn time(stage: &Stage, areas: &Areas, buf: &mut Buffer, ink: &Ink) {
+pub fn time(stage: &StagedScene, areas: &Areas, buf: &mut Buffer, ink: &Ink) {
     let (bar, status) = (areas.bar, &stage.status);
     if bar.width < 4 {
         return;
@@ -60,7 +60,13 @@ pub fn time(stage: &Stage, areas: &Areas, buf: &mut Buffer, ink: &Ink) {
 }
 
 /// The line above the keys: a seek, a notice, or how many particles are astray.
-pub fn notice(stage: &Stage, notice: Option<&Notice>, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn notice(
+    stage: &StagedScene,
+    notice: Option<&Notice>,
+    area: Rect,
+    buf: &mut Buffer,
+    ink: &Ink,
+) {
     let mut pieces: Vec<Piece> = vec![(" ".to_owned(), ink.text())];
     let astray = astray(stage, ink);
     if let Some(seek) = stage.status.seek {
@@ -101,8 +107,8 @@ fn shortened(text: &str, room: usize) -> String {
     }
 }
 
-/// On the way back: who is not on the way home.
-fn astray(stage: &Stage, ink: &Ink) -> Vec<Piece> {
+/// On the way back: how many particles are not on their way home.
+fn astray(stage: &StagedScene, ink: &Ink) -> Vec<Piece> {
     let status = &stage.status;
     let total = count(stage.points.len() as u64);
     let back = status.arrow == Arrow::Backward || status.seek.is_some();
@@ -131,7 +137,7 @@ fn astray(stage: &Stage, ink: &Ink) -> Vec<Piece> {
 }
 
 /// The keys that one needs most, as many as there is room for.
-pub fn hints(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn hints(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     const HINTS: [(&[Action], &str); 10] = [
         (&[Action::Play], ""),
         (&[Action::Turn], "reverse time"),
@@ -150,7 +156,10 @@ pub fn hints(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
         "play"
     };
     let pieces = HINTS.map(|(actions, words)| {
-        let keys: Vec<String> = actions.iter().filter_map(|a| key_of(*a)).collect();
+        let keys: Vec<String> = actions
+            .iter()
+            .filter_map(|a| keys::key_of(keys::TABLE, *a))
+            .collect();
         [
             (format!(" {}", keys.join(" ")), ink.bold()),
             (
@@ -179,13 +188,4 @@ pub fn hints(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
             rest = Rect::new(end, area.y, area.right() - end, 1);
         }
     }
-}
-
-/// The first key of an action.
-fn key_of(action: Action) -> Option<String> {
-    let table = loschmidt_viewer::keys::TABLE;
-    let keys = table.iter().flat_map(|binding| binding.keys);
-    keys.clone()
-        .find(|(_, a)| *a == action)
-        .map(|(key, _)| key.to_string())
 }

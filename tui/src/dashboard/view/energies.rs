@@ -1,12 +1,12 @@
 //! Energies: the numbers now, and the curves.
 
-use super::super::state::Stage;
 use super::ink::Ink;
 use super::numbers::{energy_unit, error, fixed};
-use super::plot::{Curve, Plot};
+use super::plot::{DotCurve, DotPlot};
 use super::{Piece, width};
 use loschmidt_runner::run::Row;
 use loschmidt_viewer::Rgb;
+use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
@@ -16,7 +16,7 @@ use std::borrow::Cow;
 type Part = (Cow<'static, str>, Rgb, Box<dyn Fn(&Row) -> f64>);
 
 /// Draws the energies.
-pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     if area.height < 3 {
         return;
     }
@@ -141,7 +141,7 @@ fn flow(groups: &[Vec<Piece>], area: Rect, buf: &mut Buffer) -> u16 {
     (row + 1).min(most)
 }
 
-fn draw(stage: &Stage, scale: f64, parts: &[Part], area: Rect, buf: &mut Buffer, ink: &Ink) {
+fn draw(stage: &StagedScene, scale: f64, parts: &[Part], area: Rect, buf: &mut Buffer, ink: &Ink) {
     let rows = || stage.track.out().iter().chain(stage.track.back());
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
     for row in rows() {
@@ -157,16 +157,16 @@ fn draw(stage: &Stage, scale: f64, parts: &[Part], area: Rect, buf: &mut Buffer,
         .iter()
         .map(|(_, colour, value)| (*colour, move |row: &Row| Some(value(row) / scale)))
         .collect();
-    let curves: Vec<Curve<'_>> = values
+    let curves: Vec<DotCurve<'_>> = values
         .iter()
-        .map(|(colour, value)| Curve {
+        .map(|(colour, value)| DotCurve {
             colour: *colour,
             value,
             back: None,
             reference: false,
         })
         .collect();
-    Plot {
+    DotPlot {
         track: &stage.track,
         curves: &curves,
         range: [low, high + 0.04 * (high - low)],

@@ -1,17 +1,17 @@
 //! Reduced Boltzmann entropy, with its equilibrium values.
 
-use super::super::state::Stage;
 use super::ink::Ink;
 use super::numbers::fixed;
-use super::plot::{Curve, Plot};
+use super::plot::{DotCurve, DotPlot};
 use super::{Piece, write};
 use loschmidt_runner::run::Row;
+use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
 /// Draws the entropy.
-pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     if area.height < 3 {
         return;
     }
@@ -44,19 +44,19 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     write(buf, area, area.y, &pieces);
 
     let curves = [
-        Curve {
+        DotCurve {
             colour: theme.forward,
             back: Some(theme.backward),
             value: &|row: &Row| Some(row.entropy),
             reference: false,
         },
-        Curve {
+        DotCurve {
             colour: theme.second,
             back: None,
             value: &|row: &Row| row.equilibrium_entropy_of_energy,
             reference: true,
         },
-        Curve {
+        DotCurve {
             colour: theme.third,
             back: None,
             value: &|row: &Row| row.equilibrium_entropy_of_fit,
@@ -74,7 +74,7 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     }
     let room = 0.05 * (high - low);
     let plot = Rect::new(area.x, area.y + 1, area.width, area.height - 1);
-    Plot {
+    DotPlot {
         track: &stage.track,
         curves: &curves,
         range: [low - room, high + room],

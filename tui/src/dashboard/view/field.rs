@@ -1,16 +1,25 @@
-//! The fluid, from the shared rasteriser: two pixels to a cell, or eight dots where colours are few.
+//! The fluid, from the shared rasteriser: two pixels to a cell, or eight dots where colours are
+//! few.
 
-use super::super::state::{Depth, Stage};
+use super::super::state::Depth;
 use super::ink::{Ink, colour};
 use super::numbers::short;
 use super::width;
+use loschmidt_viewer::session::StagedScene;
 use loschmidt_viewer::{Look, Projection, Raster, Rgb, field};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
 /// Draws the field.
-pub fn render(stage: &Stage, look: &Look, depth: Depth, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn render(
+    stage: &StagedScene,
+    look: &Look,
+    depth: Depth,
+    area: Rect,
+    buf: &mut Buffer,
+    ink: &Ink,
+) {
     let (columns, rows) = (usize::from(area.width), usize::from(area.height));
     if columns == 0 || rows == 0 {
         return;
@@ -76,7 +85,7 @@ fn braille(raster: &Raster, background: Rgb, area: Rect, buf: &mut Buffer) {
 }
 
 /// The particle whose bit was flipped.
-fn mark(stage: &Stage, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
+fn mark(stage: &StagedScene, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let Some(particle) = stage.flipped() else {
         return;
     };
@@ -98,7 +107,7 @@ fn mark(stage: &Stage, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
 }
 
 /// What the colours say: the name, the ends and the colours between.
-pub fn legend(stage: &Stage, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn legend(stage: &StagedScene, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
     if area.height == 0 {
         return;
     }

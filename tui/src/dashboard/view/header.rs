@@ -1,16 +1,16 @@
 //! What runs, where it is in time, and which way time runs.
 
-use super::super::state::Stage;
 use super::ink::Ink;
 use super::numbers::{count, short, steps};
 use super::{Piece, write, write_right};
 use loschmidt_runner::{ArithmeticKind, Arrow};
+use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Modifier;
 
 /// Draws the header.
-pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let scene = &stage.opened.scene;
     let options = &stage.opened.options;
     let status = &stage.status;
@@ -55,7 +55,7 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
 }
 
 /// Time, steps and the arrow.
-fn clock(stage: &Stage, columns: u16, ink: &Ink) -> Vec<Piece> {
+fn clock(stage: &StagedScene, columns: u16, ink: &Ink) -> Vec<Piece> {
     let status = &stage.status;
     let strong = ink.time().add_modifier(Modifier::BOLD);
     let mut pieces = vec![
@@ -83,7 +83,7 @@ fn clock(stage: &Stage, columns: u16, ink: &Ink) -> Vec<Piece> {
 }
 
 /// How fast time runs.
-fn pace(stage: &Stage, columns: u16, ink: &Ink) -> Vec<Piece> {
+fn pace(stage: &StagedScene, columns: u16, ink: &Ink) -> Vec<Piece> {
     let status = &stage.status;
     let dt = stage.opened.scene.time_step();
     let reached = status.steps_per_second * dt;

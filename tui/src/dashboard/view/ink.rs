@@ -1,6 +1,6 @@
 //! Styles, from the theme that field, pictures and window have in common.
 
-use super::super::state::{Depth, State};
+use super::super::state::{DashboardState, Depth};
 use loschmidt_runner::Arrow;
 use loschmidt_viewer::{Rgb, Theme};
 use ratatui::style::{Color, Modifier, Style};
@@ -20,11 +20,12 @@ pub struct Ink {
 }
 
 impl Ink {
-    pub fn of(state: &State) -> Self {
+    pub fn of(state: &DashboardState) -> Self {
+        let stage = state.session.stage.as_ref();
         Self {
-            theme: state.look.theme,
+            theme: state.session.look.theme,
             depth: state.depth,
-            arrow: state.stage.as_ref().map_or(Arrow::Forward, |s| s.arrow()),
+            arrow: stage.map_or(Arrow::Forward, |stage| stage.arrow()),
         }
     }
 

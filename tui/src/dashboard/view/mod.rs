@@ -16,8 +16,9 @@ mod plot;
 mod reduce;
 mod speeds;
 
-use super::state::{Overlay, Stage, State};
+use super::state::DashboardState;
 use ink::Ink;
+use loschmidt_viewer::session::{Overlay, StagedScene};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Style;
@@ -106,7 +107,7 @@ impl Areas {
     }
 }
 
-impl Widget for &State {
+impl Widget for &DashboardState {
     fn render(self, area: Rect, buf: &mut Buffer) {
         let ink = Ink::of(self);
         buf.set_style(area, ink.page());
@@ -114,13 +115,13 @@ impl Widget for &State {
         if area.width < SMALLEST.0 || area.height < SMALLEST.1 {
             too_small(area, buf, &ink);
         } else {
-            match &self.stage {
+            match &self.session.stage {
                 Some(stage) => self.stage(stage, &areas, area, buf, &ink),
                 None => self.waiting(area, buf, &ink),
             }
-            match &self.overlay {
+            match &self.session.overlay {
                 Overlay::None => {}
-                Overlay::Help(first) => overlays::help(*first, area, buf, &ink),
+                Overlay::Help => overlays::help(self.help_line, area, buf, &ink),
                 Overlay::Scenes(list) => overlays::scenes(list, area, buf, &ink),
                 Overlay::Parameters(panel) => overlays::parameters(panel, area, buf, &ink),
                 Overlay::Error(why) => overlays::error(why, area, buf, &ink),
@@ -130,25 +131,25 @@ impl Widget for &State {
     }
 }
 
-impl State {
-    fn stage(&self, stage: &Stage, areas: &Areas, whole: Rect, buf: &mut Buffer, ink: &Ink) {
+impl DashboardState {
+    fn stage(&self, stage: &StagedScene, areas: &Areas, whole: Rect, buf: &mut Buffer, ink: &Ink) {
         header::render(stage, areas.header, buf, ink);
-        field::render(stage, &self.look, self.depth, areas.field, buf, ink);
-        field::legend(stage, &self.look, areas.legend, buf, ink);
+        field::render(stage, &self.session.look, self.depth, areas.field, buf, ink);
+        field::legend(stage, &self.session.look, areas.legend, buf, ink);
         energies::render(stage, areas.energies, buf, ink);
         entropy::render(stage, areas.entropy, buf, ink);
         speeds::render(stage, areas.speeds, buf, ink);
         bar::time(stage, areas, buf, ink);
-        bar::notice(stage, self.notice.as_ref(), areas.notice, buf, ink);
+        bar::notice(stage, self.session.notice.as_ref(), areas.notice, buf, ink);
         bar::hints(stage, areas.hints, buf, ink);
-        if let Some(arrival) = &self.banner {
+        if let Some(arrival) = &self.session.banner {
             banner::render(arrival, areas.field, whole, buf, ink);
         }
     }
 
     /// A scene is being set up.
     fn waiting(&self, area: Rect, buf: &mut Buffer, ink: &Ink) {
-        let text = format!("setting up {} …", self.request.name);
+        let text = format!("setting up {} …", self.session.request.name);
         let x = area.x + area.width.saturating_sub(text.chars().count() as u16) / 2;
         let y = area.y + area.height / 2;
         buf.set_stringn(x, y, &text, area.width.into(), ink.faint());

@@ -1,17 +1,6 @@
 //! Numbers for people.
 
-/// 5,000 and 1,234,567.
-pub fn count(n: u64) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
+pub use loschmidt_viewer::session::count;
 
 /// Steps, which may lie before the start.
 pub fn steps(n: i64) -> String {

@@ -2,7 +2,7 @@
 
 use super::ink::Ink;
 use super::{Piece, width};
-use loschmidt_viewer::face::{List, Panel};
+use loschmidt_viewer::session::{List, Panel};
 use loschmidt_viewer::{Rgb, keys};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -10,18 +10,18 @@ use ratatui::style::Modifier;
 use ratatui::widgets::{Block, BorderType, Clear, Widget};
 
 /// Pieces of a line.
-pub type Line = Vec<Piece>;
+pub type StyledLine = Vec<Piece>;
 
 /// A sheet in the middle of an area, with lines on it.
 pub fn sheet(
     title: &str,
-    lines: &[Line],
+    lines: &[StyledLine],
     border: Option<Rgb>,
     area: Rect,
     buf: &mut Buffer,
     ink: &Ink,
 ) -> Rect {
-    let wide = |line: &Line| line.iter().map(|(text, _)| width(text)).sum::<u16>();
+    let wide = |line: &StyledLine| line.iter().map(|(text, _)| width(text)).sum::<u16>();
     let columns = lines
         .iter()
         .map(wide)
@@ -65,7 +65,7 @@ pub fn help(first: usize, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let table = keys::TABLE;
     let column = table.iter().map(|b| width(&b.names())).max().unwrap_or(0);
     let spaced = usize::from(area.height) >= table.len() + 9;
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<StyledLine> = Vec::new();
     let mut group = "";
     for binding in table {
         let head = if binding.group == group {
@@ -107,7 +107,7 @@ pub fn scenes(list: &List, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let names = list.choices.iter().map(|c| width(&c.name));
     let column = names.max().unwrap_or(0).min(36);
     let room = usize::from(area.height.saturating_sub(5));
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<StyledLine> = Vec::new();
     for (n, choice) in list.visible(room) {
         let mark = if n == list.chosen { "▸ " } else { "  " };
         let name: String = choice.name.chars().take(36).collect();
@@ -132,7 +132,7 @@ pub fn scenes(list: &List, area: Rect, buf: &mut Buffer, ink: &Ink) {
 
 /// The panel of parameters.
 pub fn parameters(panel: &Panel, area: Rect, buf: &mut Buffer, ink: &Ink) {
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<StyledLine> = Vec::new();
     for (n, (name, unit, _)) in Panel::FIELDS.iter().enumerate() {
         let here = n == panel.field;
         let mark = if here { "▸ " } else { "  " };
@@ -170,7 +170,7 @@ pub fn parameters(panel: &Panel, area: Rect, buf: &mut Buffer, ink: &Ink) {
 /// Why nothing can be shown.
 pub fn error(why: &str, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let room = usize::from(area.width.saturating_sub(6)).max(10);
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<StyledLine> = Vec::new();
     for line in why.lines() {
         for piece in wrapped(line, room) {
             lines.push(vec![(piece, ink.text())]);

@@ -1,5 +1,5 @@
-//! Curves over physical time. On the way back time falls, and the curve runs back over itself: the way
-//! out stands back, and the way back is drawn over it in full.
+//! Curves over physical time. On the way back time falls, and the curve runs back over itself: the
+//! way out stands back, and the way back is drawn over it in full.
 
 use super::dots::Dots;
 use super::ink::Ink;
@@ -11,12 +11,12 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 /// What is drawn of a row.
-pub type Value<'a> = &'a dyn Fn(&Row) -> Option<f64>;
+pub type RowValue<'a> = &'a dyn Fn(&Row) -> Option<f64>;
 
 /// A curve.
-pub struct Curve<'a> {
+pub struct DotCurve<'a> {
     pub colour: Rgb,
-    pub value: Value<'a>,
+    pub value: RowValue<'a>,
     /// Its colour on the way back, where that is another.
     pub back: Option<Rgb>,
     /// Drawn with gaps: an equilibrium, not a state.
@@ -24,9 +24,9 @@ pub struct Curve<'a> {
 }
 
 /// Curves with a common pair of axes.
-pub struct Plot<'a> {
+pub struct DotPlot<'a> {
     pub track: &'a Track,
-    pub curves: &'a [Curve<'a>],
+    pub curves: &'a [DotCurve<'a>],
     /// Ends of the upward axis.
     pub range: [f64; 2],
     /// The end of the axis of time, s.
@@ -38,7 +38,7 @@ pub struct Plot<'a> {
 /// Columns for the numbers at the upward axis.
 const MARGIN: u16 = 7;
 
-impl Plot<'_> {
+impl DotPlot<'_> {
     /// Draws the plot; nothing where there is no room.
     pub fn render(&self, area: Rect, buf: &mut Buffer, ink: &Ink) {
         if area.height < 2 || area.width < MARGIN + 4 {
@@ -102,7 +102,7 @@ impl Plot<'_> {
         buf[(x, axes.bottom())].set_char('▲').set_style(ink.time());
     }
 
-    fn curve(&self, dots: &mut Dots, rows: &[Row], curve: &Curve<'_>, colour: Rgb, bold: bool) {
+    fn curve(&self, dots: &mut Dots, rows: &[Row], curve: &DotCurve<'_>, colour: Rgb, bold: bool) {
         let (width, height) = dots.size();
         let [low, high] = self.range;
         let mut last: Option<[f64; 2]> = None;

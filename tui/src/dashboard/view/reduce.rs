@@ -28,7 +28,7 @@ fn foreground(colour: Color, depth: Depth) -> Color {
     }
 }
 
-/// With few colours the ground is the terminal's own, but for badges, whose ground is bright.
+/// With 16 colours the ground is the terminal's own, except for badges, whose ground is bright.
 fn background(colour: Color, depth: Depth) -> Color {
     match (colour, depth) {
         (Color::Rgb(r, g, b), Depth::Indexed) => Color::Indexed(cube(r, g, b)),
@@ -62,7 +62,7 @@ fn cube(r: u8, g: u8, b: u8) -> u8 {
     }
 }
 
-/// One of the old colours, by hue; greys by lightness.
+/// One of the 16 colours, by hue; greys by lightness.
 fn basic(r: u8, g: u8, b: u8) -> Color {
     let (low, high) = (r.min(g).min(b), r.max(g).max(b));
     if u32::from(high - low) * 4 < u32::from(high) {

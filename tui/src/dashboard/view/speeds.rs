@@ -1,11 +1,11 @@
 //! The speed histogram with the fitted Maxwell–Boltzmann curve and its temperature.
 
-use super::super::state::Stage;
 use super::dots::Dots;
 use super::ink::{Ink, colour};
 use super::numbers::short;
 use super::{Piece, width, write};
 use loschmidt_core::observe::{BINS, SpeedHistogram};
+use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
@@ -13,7 +13,7 @@ use ratatui::layout::Rect;
 const EIGHTHS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
 /// Draws the histogram.
-pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let Some(moment) = &stage.moment else { return };
     if area.height < 4 || area.width < 16 {
         return;
@@ -40,7 +40,7 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let histogram = &moment.histogram;
     let shown = bins_shown(histogram, fit);
     let largest = shown.iter().fold(0.0_f64, |m, &(f, _)| m.max(f));
-    // The first bin of a fluid at rest holds all of it; it may leave the picture.
+    // Heights are divided by it.
     let top = largest.max(f64::MIN_POSITIVE);
     bars(&shown, top, axes, buf, ink);
     if let Some(t) = fit {
@@ -56,8 +56,8 @@ pub fn render(stage: &Stage, area: Rect, buf: &mut Buffer, ink: &Ink) {
     buf.set_string(x, axes.bottom(), end, ink.faint());
 }
 
-/// Densities and midpoints of the bins up to the fastest particles that can be seen: the axis ends at
-/// a quarter, a half or all of the bins.
+/// Densities and midpoints of the bins up to the fastest particles that can be seen: the axis ends
+/// after one, two or three fifths of the bins, or after all of them.
 fn bins_shown(histogram: &SpeedHistogram, fit: Option<f64>) -> Vec<(f64, f64)> {
     let total: u64 = histogram.counts.iter().map(|&c| u64::from(c)).sum();
     let mut slower = 0;

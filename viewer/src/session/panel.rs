@@ -1,6 +1,6 @@
 //! The panel of parameters: what a scene can be started anew with.
 
-use super::{Answer, MOST_THREADS, Request};
+use super::request::{Answer, MOST_THREADS, Request};
 use crate::keys::Key;
 use loschmidt_runner::Options;
 use loschmidt_runner::scene::Scene;
@@ -53,8 +53,8 @@ impl Panel {
         }
     }
 
-    /// A field as it is shown: where it is edited, with these marks before and behind what is chosen, and
-    /// behind what is typed.
+    /// A field as it is shown: where it is edited, with these marks before and behind what is
+    /// chosen, and behind what is typed.
     #[must_use]
     pub fn shown(&self, field: usize, [before, behind, cursor]: [char; 3]) -> String {
         let value = &self.values[field];

@@ -1,6 +1,6 @@
 //! What can be opened: the catalogue, scene files nearby, runs.
 
-use super::{Answer, Request};
+use super::request::{Answer, Request};
 use crate::keys::Key;
 use loschmidt_runner::output::RunDirectory;
 use loschmidt_runner::output::Status;
@@ -61,8 +61,8 @@ impl List {
         Answer::Stay
     }
 
-    /// The choices that a sheet of so many lines has room for, with their places in the list: among them
-    /// the one that is chosen.
+    /// The choices that a sheet of so many lines has room for, with their places in the list:
+    /// among them the one that is chosen.
     pub fn visible(&self, lines: usize) -> impl Iterator<Item = (usize, &Choice)> {
         let lines = lines.max(1);
         let last = self.choices.len().saturating_sub(lines);
