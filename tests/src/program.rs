@@ -2,6 +2,7 @@
 //!
 //! Everything here panics where it cannot go on: it is called by tests alone.
 
+use loschmidt_runner::fast::Backend;
 use loschmidt_runner::run::Row;
 use loschmidt_runner::scene::{Scene, Source, load};
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options, Outcome, Player, Run, RunError};
@@ -46,6 +47,21 @@ pub fn threads(n: usize) -> Options {
     }
 }
 
+/// The fast executor with these instructions on so many threads.
+#[must_use]
+pub fn fast(backend: Backend, n: usize) -> Options {
+    Options {
+        executor: ExecutorKind::Fast,
+        backend,
+        ..threads(n)
+    }
+}
+
+/// The instruction sets that this machine has.
+pub fn backends() -> impl Iterator<Item = Backend> {
+    Backend::ALL.into_iter().filter(|b| b.is_available())
+}
+
 /// The same options with the particles stored in another order.
 #[must_use]
 pub fn shuffled(options: Options, seed: u64) -> Options {
@@ -64,15 +80,20 @@ pub fn float(options: Options) -> Options {
     }
 }
 
-/// Every way to walk the particles that must not change a bit: the serial executor and 1, 2, 3 and
-/// 8 threads, each with the lattice order and with two others.
+/// Every way to walk the particles that must not change a bit: the serial executor, the plain
+/// parallel one on two threads, and the fast one with every instruction set of this machine on 1, 2
+/// and 5 threads; the storage begins in the lattice order and in two others.
 #[must_use]
 pub fn every_way() -> Vec<Options> {
-    let executors = [serial(), threads(1), threads(2), threads(3), threads(8)];
     let orders = [None, Some(1), Some(0xdead_beef)];
-    executors
-        .iter()
-        .flat_map(|&options| orders.map(|shuffle| Options { shuffle, ..options }))
+    let fast = backends().flat_map(|backend| [1, 2, 5].map(|n| fast(backend, n)));
+    let plain = [serial(), shuffled(threads(2), 1)];
+    plain
+        .into_iter()
+        .chain(
+            fast.zip(orders.into_iter().cycle())
+                .map(|(options, shuffle)| Options { shuffle, ..options }),
+        )
         .collect()
 }
 

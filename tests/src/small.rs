@@ -2,12 +2,16 @@
 
 use crate::generator::Generator;
 use loschmidt_core::digest::Digest;
+use loschmidt_core::fields::{POSITION, state_fields};
 use loschmidt_core::integrator::STORMER_VERLET;
-use loschmidt_core::model::{Central, DensityCorrection, Gravity, StateEquation, Wall};
+use loschmidt_core::model::{Relax, SetupError};
 use loschmidt_core::number::{Arithmetic, Quantity};
-use loschmidt_core::owned::Owned;
+use loschmidt_core::owned::{self, Owned};
+use loschmidt_core::schemes::wcsph::{
+    Central, DensityCorrection, Filter, Gravity, StateEquation, Wall, Water,
+};
 use loschmidt_core::{
-    Diagnostics, Fixed, Forces, Model, Parameters, Scale, Serial, Symplectic, System,
+    Diagnostics, Filtered, Fixed, Model, Parameters, Scale, Serial, Standard, Symplectic, System,
 };
 
 /// Distance of neighbours on the lattice, m.
@@ -19,8 +23,54 @@ pub const WALLS: usize = 512;
 /// Words for each of its grids.
 pub const BUCKETS: usize = 1025;
 
+/// Words of memory for its fields: enough for three dimensions, and so for two.
+pub const MEMORY: usize = owned::words(
+    <Symplectic<Fixed, 3> as Model<Fixed, 3>>::FIELDS,
+    3,
+    FLUID,
+    WALLS,
+);
+
 /// A small system.
-pub type Small<M, const D: usize, A = Fixed> = Owned<A, M, D, FLUID, WALLS, BUCKETS>;
+pub type Small<M, const D: usize, A = Fixed> = Owned<A, M, D, FLUID, WALLS, BUCKETS, MEMORY>;
+
+/// A scheme of water: made from its parameters.
+pub trait Scheme<A: Arithmetic, const D: usize>: Model<A, D> {
+    /// The scheme with these parameters.
+    ///
+    /// # Errors
+    /// A number out of range.
+    fn of(parameters: Parameters<D>) -> Result<Self, SetupError>;
+    /// What the schemes share.
+    fn water(&self) -> &Water<A, D>;
+}
+
+impl<A: Arithmetic, const D: usize> Scheme<A, D> for Symplectic<A, D> {
+    fn of(parameters: Parameters<D>) -> Result<Self, SetupError> {
+        Self::new(parameters)
+    }
+    fn water(&self) -> &Water<A, D> {
+        self.water()
+    }
+}
+
+impl<A: Arithmetic, const D: usize> Scheme<A, D> for Standard<A, D> {
+    fn of(parameters: Parameters<D>) -> Result<Self, SetupError> {
+        Self::new(parameters)
+    }
+    fn water(&self) -> &Water<A, D> {
+        self.water()
+    }
+}
+
+impl<A: Arithmetic, const D: usize> Scheme<A, D> for Filtered<A, D> {
+    fn of(parameters: Parameters<D>) -> Result<Self, SetupError> {
+        Filter::filtered(parameters)
+    }
+    fn water(&self) -> &Water<A, D> {
+        self.0.scheme().water()
+    }
+}
 
 /// Water at a sound speed of 20 m/s: no gravity, no walls, support of three spacings.
 #[must_use]
@@ -164,9 +214,9 @@ impl<const D: usize> Recipe<D> {
     /// # Panics
     /// If they do not fit.
     #[must_use]
-    pub fn place<A: Arithmetic, M: Model<A, D>>(&self) -> Box<Small<M, D, A>> {
-        let forces = Forces::new(self.parameters).expect("parameters in range");
-        let mut system = Box::new(Small::new(M::new(forces)).expect("buckets"));
+    pub fn place<A: Arithmetic, M: Scheme<A, D>>(&self) -> Box<Small<M, D, A>> {
+        let model = M::of(self.parameters).expect("parameters in range");
+        let mut system = Box::new(Small::new(model).expect("buckets and words"));
         for (x, v) in &self.fluid {
             system.push_fluid(*x, *v).expect("room for the fluid");
         }
@@ -181,7 +231,7 @@ impl<const D: usize> Recipe<D> {
     /// # Panics
     /// If they do not fit.
     #[must_use]
-    pub fn build<A: Arithmetic, M: Model<A, D>>(&self) -> Box<Small<M, D, A>> {
+    pub fn build<A: Arithmetic, M: Scheme<A, D>>(&self) -> Box<Small<M, D, A>> {
         let mut system = self.place::<A, M>();
         system.initialise(&Serial).expect("densities in range");
         system
@@ -236,7 +286,7 @@ pub fn measure<A: Arithmetic, M: Model<A, D>, const D: usize>(
     Diagnostics::measure(model, &mut system, &Serial).expect("densities in range")
 }
 
-/// Moves component `d` of the particle in this place by `quanta`; what was computed is void.
+/// Moves component `d` of the particle in this place by `quanta`.
 pub fn displace<A: Arithmetic, M: Model<A, D>, const D: usize>(
     system: &mut Small<M, D, A>,
     place: usize,
@@ -244,38 +294,45 @@ pub fn displace<A: Arithmetic, M: Model<A, D>, const D: usize>(
     quanta: i64,
 ) {
     let (_, mut system) = system.parts();
-    let word = system.state.word(0, d, place);
-    system.state.set_word(0, d, place, word + quanta);
-    system.progress.invalidate();
+    let word = system.particles.word(POSITION, d, place);
+    system.particles.set_word(POSITION, d, place, word + quanta);
 }
 
-/// Stores the fluid in another order; what was computed is void.
+/// Stores the fluid in another order.
 pub fn shuffle<A: Arithmetic, const D: usize>(system: &mut System<'_, A, D>, seed: u64) {
-    let state = &mut system.state;
-    Generator::new(seed).shuffle(state.len(), |a, b| {
-        state.id.swap(a, b);
-        state.position.swap(a, b);
-        state.velocity.swap(a, b);
-        state.density.swap(a, b);
+    let particles = system.particles.len();
+    let (id, fields) = system.particles.parts();
+    let mut fields: Vec<_> = fields.collect();
+    Generator::new(seed).shuffle(particles, |a, b| {
+        id.swap(a, b);
+        for (each, words) in &mut fields {
+            for c in 0..*each {
+                words.swap(a * *each + c, b * *each + c);
+            }
+        }
     });
-    system.progress.invalidate();
 }
 
 /// Every word of the state, by id.
 pub fn words<A: Arithmetic, M: Model<A, D>, const D: usize>(
     system: &mut Small<M, D, A>,
 ) -> Vec<(u64, Vec<i64>)> {
-    let (_, system) = system.parts();
-    let state = &system.state;
-    let fields = state.fields();
-    let mut all: Vec<(u64, Vec<i64>)> = (0..state.len())
+    words_of(&system.parts().1)
+}
+
+/// Every word of the state of a system, by id.
+#[must_use]
+pub fn words_of<A: Arithmetic, const D: usize>(system: &System<'_, A, D>) -> Vec<(u64, Vec<i64>)> {
+    let set = &system.particles;
+    let fields = state_fields(set.fields(), set.side());
+    let mut all: Vec<(u64, Vec<i64>)> = (0..set.len())
         .map(|place| {
-            let components = fields
-                .iter()
-                .enumerate()
-                .flat_map(|(f, field)| (0..field.components).map(move |c| (f, c)));
-            let words = components.map(|(f, c)| state.word(f, c, place)).collect();
-            (state.id[place], words)
+            let components = fields.clone().flat_map(|(f, field)| {
+                let components = 0..field.words(set.side(), D);
+                components.map(move |c| (f, c))
+            });
+            let words = components.map(|(f, c)| set.word(f, c, place)).collect();
+            (set.id[place], words)
         })
         .collect();
     all.sort();
@@ -304,9 +361,9 @@ pub fn velocity<A: Arithmetic, M: Model<A, D>, const D: usize>(
     system: &mut Small<M, D, A>,
     place: usize,
 ) -> [f64; D] {
-    let quantum = system.model().forces().parameters().scale.speed_quantum();
+    let quantum = system.model().scale().speed_quantum();
     let (_, system) = system.parts();
-    system.state.velocity[place].map(|v| v.quanta::<f64>() * quantum)
+    system.particles.velocity()[place].map(|v| v.quanta() * quantum)
 }
 
 /// Position of the particle in this place, m.
@@ -314,7 +371,7 @@ pub fn position<A: Arithmetic, M: Model<A, D>, const D: usize>(
     system: &mut Small<M, D, A>,
     place: usize,
 ) -> [f64; D] {
-    let quantum = system.model().forces().parameters().scale.length_quantum();
+    let quantum = system.model().scale().length_quantum();
     let (_, system) = system.parts();
-    system.state.position[place].map(|x| x.quanta::<f64>() * quantum)
+    system.particles.position()[place].map(|x| x.quanta() * quantum)
 }

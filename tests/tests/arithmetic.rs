@@ -1,30 +1,29 @@
 //! The floating-point control: the same pair terms, without the return.
 
 use loschmidt_core::integrator::INTEGRATORS;
-use loschmidt_core::model::{DensityCorrection, Wall};
 use loschmidt_core::number::Quantity;
-use loschmidt_core::{Fixed, Float, Model, Scale, Serial, Standard, Symplectic, System};
+use loschmidt_core::schemes::wcsph::{CONSTANT, DensityCorrection, Wall};
+use loschmidt_core::{Fixed, Float, Scale, Serial, Standard, Symplectic, System};
 use loschmidt_tests::permitted;
-use loschmidt_tests::small::{Recipe, conservative, dam_2d, dam_3d, there_and_back, water};
+use loschmidt_tests::small::{Recipe, Scheme, conservative, dam_2d, dam_3d, there_and_back, water};
 
 /// Largest difference of positions, velocities and densities, in quanta.
 fn difference<const D: usize>(a: &System<'_, Fixed, D>, b: &System<'_, Float, D>) -> f64 {
     let mut largest = 0.0f64;
-    for i in 0..a.state.len() {
+    let (a, b) = (&a.particles, &b.particles);
+    for i in 0..a.len() {
         for d in 0..D {
-            largest = largest
-                .max((a.state.position[i][d].quanta::<f64>() - b.state.position[i][d]).abs());
-            largest = largest
-                .max((a.state.velocity[i][d].quanta::<f64>() - b.state.velocity[i][d]).abs());
+            largest = largest.max((a.position()[i][d].quanta() - b.position()[i][d]).abs());
+            largest = largest.max((a.velocity()[i][d].quanta() - b.velocity()[i][d]).abs());
         }
-        largest = largest.max((a.state.density[i].quanta::<f64>() - b.state.density[i]).abs());
+        largest = largest.max((a.words(CONSTANT)[i].quanta() - b.words(CONSTANT)[i]).abs());
     }
     largest
 }
 
 /// One step from rest, from positions that both arithmetics hold exactly.
 fn one_step<const D: usize>(recipe: &Recipe<D>, standard: bool) {
-    fn run<M: Model<Fixed, D>, N: Model<Float, D>, const D: usize>(recipe: &Recipe<D>) {
+    fn run<M: Scheme<Fixed, D>, N: Scheme<Float, D>, const D: usize>(recipe: &Recipe<D>) {
         let mut fixed = recipe.build::<Fixed, M>();
         let mut float = recipe.build::<Float, N>();
         let still = fixed.digest();
@@ -75,11 +74,11 @@ fn a_float_state_counts_in_the_same_quanta() {
     // The own term of the density is rounded in one and not in the other.
     assert!(error < 1.0);
     assert_eq!(
-        float.parts().1.state.position[0],
+        float.parts().1.particles.position()[0],
         [0.75, -1.5].map(|x| x * 2f64.powi(45))
     );
     assert_eq!(
-        float.parts().1.state.velocity[0],
+        float.parts().1.particles.velocity()[0],
         [0.25, 1.0].map(|x| x * 2f64.powi(43))
     );
 }

@@ -1,18 +1,19 @@
-//! What the scratch remembers never shows: looking at a run, or forgetting, changes no bit of it.
+//! What is remembered never shows: looking at a run, or forgetting, changes no bit of it.
 
 use loschmidt_core::integrator::{INTEGRATORS, Integrator};
-use loschmidt_core::model::Wall;
-use loschmidt_core::number::Arithmetic;
-use loschmidt_core::state::Progress;
-use loschmidt_core::{Fixed, Float, Model, Serial, Standard, Symplectic};
-use loschmidt_tests::small::{Recipe, Small, conservative, dam_2d, dam_3d, measure, words};
+use loschmidt_core::number::{Arithmetic, Quantity, Word};
+use loschmidt_core::schemes::wcsph::{DENSITY, FIXED_DENSITY, IMPULSE, PRESSURE, Wall};
+use loschmidt_core::{Clock, Fixed, Float, Model, Serial, Standard, Symplectic};
+use loschmidt_runner::{ExecutorKind, Options, Player, Points};
+use loschmidt_tests::program::{player, scene, serial, threads};
+use loschmidt_tests::small::{Recipe, Scheme, Small, conservative, dam_2d, dam_3d, measure, words};
 
 const STEPS: u64 = 30;
 
 type Words = Vec<(u64, Vec<i64>)>;
 
 /// Out and back, with something done between any two steps.
-fn run<A: Arithmetic, M: Model<A, D>, const D: usize>(
+fn run<A: Arithmetic, M: Scheme<A, D>, const D: usize>(
     recipe: &Recipe<D>,
     mut between: impl FnMut(&mut Small<M, D, A>),
 ) -> Vec<Words> {
@@ -25,33 +26,32 @@ fn run<A: Arithmetic, M: Model<A, D>, const D: usize>(
             all.push(words(&mut system));
         }
         between(&mut system);
-        assert_eq!(system.parts().1.progress.step, (leg + 1) * STEPS);
+        assert_eq!(system.parts().1.clock.step, (leg + 1) * STEPS);
         system.reverse();
     }
     all
 }
 
-/// Overwrites all of the scratch, and says so.
+/// Overwrites all of the scratch; what follows from the walls alone is computed anew.
 fn forget<A: Arithmetic, M: Model<A, D>, const D: usize>(system: &mut Small<M, D, A>) {
-    use loschmidt_core::number::{Quantity, Real};
-    let (_, parts) = system.parts();
-    let s = parts.scratch;
-    let density = A::Density::from_word(0x0123_4567_89ab);
-    let pressure = A::Real::from_f64(0.1);
-    s.density.fill(density);
-    s.pressure.fill(pressure);
-    s.impulse.fill([A::Speed::from_word(77); D]);
-    s.wall_density.fill(density);
-    s.wall_density_fixed.fill(density);
-    s.wall_pressure.fill(pressure);
-    s.cells.start.fill(3);
-    s.cells.order.fill(5);
-    s.wall_cells.start.fill(3);
-    s.wall_cells.order.fill(5);
-    parts.progress.invalidate();
+    let (model, mut parts) = system.parts();
+    let density = A::Word::from_word(0x0123_4567_89ab);
+    let pressure = A::Word::of_real(0.1);
+    for set in [&mut parts.particles, &mut parts.walls] {
+        set.words_mut(DENSITY).fill(density);
+        set.words_mut(FIXED_DENSITY).fill(density);
+        set.words_mut(PRESSURE).fill(pressure);
+        set.words_mut(IMPULSE).fill(A::Word::from_word(77));
+    }
+    parts.cells.start.fill(3);
+    parts.cells.order.fill(5);
+    parts.wall_cells.start.fill(3);
+    parts.wall_cells.order.fill(5);
+    parts.walls.id.fill(9);
+    model.place_walls(&mut parts, &Serial).unwrap();
 }
 
-fn check<A: Arithmetic, M: Model<A, D>, const D: usize>(recipe: &Recipe<D>) {
+fn check<A: Arithmetic, M: Scheme<A, D>, const D: usize>(recipe: &Recipe<D>) {
     let plain = run::<A, M, D>(recipe, |_| ());
     let measured = run::<A, M, D>(recipe, |system| {
         let once = measure(system);
@@ -69,10 +69,14 @@ fn check<A: Arithmetic, M: Model<A, D>, const D: usize>(recipe: &Recipe<D>) {
     let forgetful = run::<A, M, D>(recipe, |system| forget(system));
     assert!(plain == forgetful, "rebuilding the scratch changed the run");
     let resumed = run::<A, M, D>(recipe, |system| {
-        let (_, parts) = system.parts();
-        *parts.progress = Progress::at_step(parts.progress.step);
+        let (model, mut parts) = system.parts();
+        *parts.clock = Clock {
+            step: parts.clock.step,
+            initialised: true,
+        };
+        model.place_walls(&mut parts, &Serial).unwrap();
     });
-    assert!(plain == resumed, "a fresh progress changed the run");
+    assert!(plain == resumed, "placing the walls anew changed the run");
     let both = run::<A, M, D>(recipe, |system| {
         forget(system);
         let _ = measure(system);
@@ -135,4 +139,61 @@ fn initialising_again_gives_the_same_constants() {
     forget(&mut system);
     system.initialise(&Serial).unwrap();
     assert_eq!(system.digest(), first);
+}
+
+/// What a player remembers between steps: looked at, given back, put back.
+#[test]
+fn nothing_that_is_done_between_steps_changes_a_bit_of_a_players_run() {
+    type Between = fn(&mut Player);
+    let deeds: [(&str, Between); 5] = [
+        ("measured", |player| {
+            let once = player.measure();
+            assert_eq!(once, player.measure());
+        }),
+        ("looked at", |player| {
+            let mut points = Points::default();
+            player.points(&mut points).unwrap();
+            assert_eq!(points.len(), player.frame().unwrap().id.len());
+        }),
+        ("memory given back", |player| player.release()),
+        ("measured, and memory given back", |player| {
+            let _ = player.measure();
+            player.release();
+        }),
+        ("put back", |player| {
+            let (saved, position, arrow) = (player.save(), player.position(), player.arrow());
+            player.restore(&saved, position, arrow).unwrap();
+        }),
+    ];
+    let fast = Options {
+        executor: ExecutorKind::Fast,
+        ..threads(2)
+    };
+    for set in [
+        "wall_model=conservative",
+        "wall_model=dummy",
+        "integrator=pefrl",
+    ] {
+        let scene = scene("dam-break", &["particle_spacing=0.1", set]);
+        for options in [serial(), fast] {
+            let run = |between: Between| {
+                let mut player = player(scene.clone(), options);
+                let mut digests = Vec::new();
+                for _ in 0..2 {
+                    for _ in 0..20 {
+                        between(&mut player);
+                        player.advance(2).unwrap();
+                        digests.push(player.digest());
+                    }
+                    player.turn();
+                }
+                digests
+            };
+            let plain = run(|_| ());
+            assert_ne!(plain[0], plain[19]);
+            for (deed, between) in deeds {
+                assert!(run(between) == plain, "{deed}: {set} {options:?}");
+            }
+        }
+    }
 }

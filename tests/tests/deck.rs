@@ -350,5 +350,5 @@ fn rows_on_the_way_out_are_the_same_whichever_way_the_arrow_points() {
     assert_eq!((again.leg, again.position), (1, 3 * every));
     assert_eq!(again.momentum_quanta(), out.momentum_quanta());
     assert_eq!(again.angular_momentum_z, out.angular_momentum_z);
-    assert_eq!(again.kinetic, out.kinetic);
+    assert_eq!(again.energies, out.energies);
 }

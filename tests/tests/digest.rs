@@ -1,9 +1,10 @@
 //! The digest: what it depends on, what not, and its bytes.
 
 use loschmidt_core::digest::hash;
+use loschmidt_core::fields::POSITION;
 use loschmidt_core::integrator::{PEFRL, STORMER_VERLET, SUZUKI};
-use loschmidt_core::model::Wall;
 use loschmidt_core::number::Arithmetic;
+use loschmidt_core::schemes::wcsph::{CONSTANT, Wall};
 use loschmidt_core::{Digest, Fixed, Float, Model, Scale, Serial, Standard, Symplectic};
 use loschmidt_tests::small::{
     Recipe, Small, conservative, dam_2d, dam_3d, displace, shuffle, water,
@@ -79,14 +80,14 @@ fn by_the_book<A: Arithmetic, M: Model<A, D>, const D: usize>(
     word: impl Fn(&loschmidt_core::System<'_, A, D>, usize, usize) -> i64,
 ) -> Digest {
     let (_, system) = system.parts();
-    let (n, w) = (system.state.len(), system.walls.position.len());
+    let (n, w) = (system.particles.len(), system.walls.len());
     let mut sum = 0u128;
     let mut add = |words: &[i64]| {
         let bytes: Vec<u8> = words.iter().flat_map(|w| w.to_le_bytes()).collect();
         sum = sum.wrapping_add(u128::from_le_bytes(siphash_128([0; 2], &bytes)));
     };
     for place in 0..n {
-        let mut words = vec![0, system.state.id[place] as i64];
+        let mut words = vec![0, system.particles.id[place] as i64];
         words.extend((0..2 * D + 1).map(|k| word(&system, place, k)));
         add(&words);
     }
@@ -121,13 +122,13 @@ fn fixed_word<const D: usize>(
     place: usize,
     k: usize,
 ) -> i64 {
-    let n = s.state.id.len();
+    let n = s.particles.len();
     match place.checked_sub(n) {
-        None if k < D => s.state.position[place][k].to_bits(),
-        None if k < 2 * D => s.state.velocity[place][k - D].to_bits(),
-        None => s.state.density[place].to_bits(),
-        Some(w) if k < D => s.walls.position[w][k].to_bits(),
-        Some(w) => s.walls.density[w].to_bits(),
+        None if k < D => s.particles.position()[place][k].to_bits(),
+        None if k < 2 * D => s.particles.velocity()[place][k - D].to_bits(),
+        None => s.particles.words(CONSTANT)[place].to_bits(),
+        Some(w) if k < D => s.walls.position()[w][k].to_bits(),
+        Some(w) => s.walls.words(CONSTANT)[w].to_bits(),
     }
 }
 
@@ -136,13 +137,13 @@ fn float_word<const D: usize>(
     place: usize,
     k: usize,
 ) -> i64 {
-    let n = s.state.id.len();
+    let n = s.particles.len();
     let x = match place.checked_sub(n) {
-        None if k < D => s.state.position[place][k],
-        None if k < 2 * D => s.state.velocity[place][k - D],
-        None => s.state.density[place],
-        Some(w) if k < D => s.walls.position[w][k],
-        Some(w) => s.walls.density[w],
+        None if k < D => s.particles.position()[place][k],
+        None if k < 2 * D => s.particles.velocity()[place][k - D],
+        None => s.particles.words(CONSTANT)[place],
+        Some(w) if k < D => s.walls.position()[w][k],
+        Some(w) => s.walls.words(CONSTANT)[w],
     };
     if x == 0.0 { 0 } else { x.to_bits() as i64 }
 }
@@ -184,7 +185,7 @@ fn it_has_the_bytes_that_its_documentation_lists() {
 
     let mut system = space.build::<Float, Symplectic<Float, 3>>();
     system.advance(3, &Serial).unwrap();
-    system.parts().1.state.velocity[0][0] = -0.0;
+    system.parts().1.particles.velocity_mut()[0][0] = -0.0;
     let book = by_the_book(
         &mut system,
         space.parameters.scale,
@@ -224,34 +225,27 @@ fn it_changes_with_every_single_bit_of_every_field() {
     let flip = |x: &mut i64, bit: u32| *x ^= 1 << bit;
     for bit in 0..64 {
         for place in 0..3 {
-            system.parts().1.state.id[place] ^= 1 << bit;
+            system.parts().1.particles.id[place] ^= 1 << bit;
             see(system.digest());
-            system.parts().1.state.id[place] ^= 1 << bit;
+            system.parts().1.particles.id[place] ^= 1 << bit;
             for (field, c) in (0..3).flat_map(|f| (0..3).map(move |c| (f, c))).take(7) {
-                let mut word = system.parts().1.state.word(field, c, place);
+                let mut word = system.parts().1.particles.word(field, c, place);
                 flip(&mut word, bit);
-                system.parts().1.state.set_word(field, c, place, word);
+                system.parts().1.particles.set_word(field, c, place, word);
                 see(system.digest());
                 flip(&mut word, bit);
-                system.parts().1.state.set_word(field, c, place, word);
+                system.parts().1.particles.set_word(field, c, place, word);
             }
         }
-        use loschmidt_core::number::Quantity;
         for place in 0..2 {
-            for d in 0..3 {
-                let x = system.parts().1.walls.position[place][d];
-                let mut word = x.to_word();
+            for (field, c) in [(POSITION, 0), (POSITION, 1), (POSITION, 2), (CONSTANT, 0)] {
+                let mut word = system.parts().1.walls.word(field, c, place);
                 flip(&mut word, bit);
-                system.parts().1.walls.position[place][d] = Quantity::from_word(word);
+                system.parts().1.walls.set_word(field, c, place, word);
                 see(system.digest());
-                system.parts().1.walls.position[place][d] = x;
+                flip(&mut word, bit);
+                system.parts().1.walls.set_word(field, c, place, word);
             }
-            let c = system.parts().1.walls.density[place];
-            let mut word = c.to_word();
-            flip(&mut word, bit);
-            system.parts().1.walls.density[place] = Quantity::from_word(word);
-            see(system.digest());
-            system.parts().1.walls.density[place] = c;
         }
     }
     assert_eq!(flips, 64 * (3 * 8 + 2 * 4));
@@ -262,9 +256,9 @@ fn it_changes_with_every_single_bit_of_every_field() {
 fn exchanged_particles_and_exchanged_ids_are_seen() {
     let mut system = Recipe::block(water::<2>(), [2, 2]).symplectic();
     let first = system.digest();
-    system.parts().1.state.position.swap(0, 1);
+    system.parts().1.particles.position_mut().swap(0, 1);
     assert_ne!(system.digest(), first);
-    system.parts().1.state.id.swap(0, 1);
+    system.parts().1.particles.id.swap(0, 1);
     // C_a are equal by symmetry and both are at rest: the same state in another order.
     assert_eq!(system.digest(), first);
 }

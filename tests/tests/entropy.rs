@@ -1,8 +1,8 @@
 //! The speed histogram, its entropy and its temperature.
 
-use loschmidt_core::diagnostics::{BINS, SpeedHistogram, equilibrium_entropy};
-use loschmidt_core::owned::Owned;
-use loschmidt_core::{Diagnostics, Fixed, Forces, Model, Parameters, Serial, Symplectic};
+use loschmidt_core::observe::{BINS, SpeedHistogram, equilibrium_entropy};
+use loschmidt_core::owned::{Owned, words};
+use loschmidt_core::{Diagnostics, Fixed, Model, Parameters, Serial, Symplectic};
 use loschmidt_tests::generator::Generator;
 use loschmidt_tests::permitted;
 use loschmidt_tests::small::{SPACING, lattice, water};
@@ -10,17 +10,24 @@ use std::f64::consts::PI;
 
 const PARTICLES: usize = 2000;
 const SOUND_SPEED: f64 = 120.0;
+/// Words for the fields in three dimensions, and so in two.
+const MEMORY: usize = words(
+    <Symplectic<Fixed, 3> as Model<Fixed, 3>>::FIELDS,
+    3,
+    PARTICLES,
+    0,
+);
 
 /// The histogram of fluid particles with these velocities.
 fn histogram<const D: usize>(velocities: &[[f64; D]]) -> SpeedHistogram {
-    type Many<const D: usize> = Owned<Fixed, Symplectic<Fixed, D>, D, PARTICLES, 0, 2049>;
+    type Many<const D: usize> = Owned<Fixed, Symplectic<Fixed, D>, D, PARTICLES, 0, 2049, MEMORY>;
     let parameters = Parameters {
         sound_speed: SOUND_SPEED,
         max_buckets: 2048,
         ..water::<D>()
     };
-    let forces = Forces::new(parameters).unwrap();
-    let mut system: Box<Many<D>> = Box::new(Owned::new(Symplectic::new(forces)).unwrap());
+    let model = Symplectic::new(parameters).unwrap();
+    let mut system: Box<Many<D>> = Box::new(Owned::new(model).unwrap());
     for (index, v) in lattice([13, 13, 13]).zip(velocities) {
         let position = std::array::from_fn(|d| {
             // In the plane the layers lie side by side.

@@ -1,13 +1,17 @@
 //! What ends a run is typed, and names the particle and the step.
 
 use loschmidt_core::fault::MAX_NEIGHBOURS;
+use loschmidt_core::fields::{POSITION_FIELD, Set, Side, VELOCITY, VELOCITY_FIELD};
 use loschmidt_core::integrator::{Integrator, Stage};
-use loschmidt_core::model::{Central, DensityCorrection, Gravity, StateEquation, Wall};
-use loschmidt_core::number::{Arithmetic, LIMIT_BITS, Quantity};
-use loschmidt_core::owned::Owned;
+use loschmidt_core::number::{Arithmetic, LIMIT_BITS, Quantity, Whole};
+use loschmidt_core::owned::{Owned, words};
+use loschmidt_core::points::PointPass;
+use loschmidt_core::schemes::wcsph::{
+    CONSTANT, Central, DensityCorrection, Gravity, StateEquation, Wall,
+};
 use loschmidt_core::{
-    CapacityError, Diagnostics, Executor, Fault, FaultKind, Fixed, Float, Forces, Model,
-    Parameters, Scale, Serial, Symplectic,
+    CapacityError, Diagnostics, Executor, Fault, FaultKind, Fixed, Float, Model, Parameters, Scale,
+    Serial, Symplectic,
 };
 use loschmidt_tests::small::{Recipe, SPACING, conservative, displace, shuffle, water};
 
@@ -114,7 +118,7 @@ fn a_position_that_leaves_the_range_is_named() {
     let mut system = recipe.symplectic();
     system.advance(1, &Serial).unwrap();
     assert_eq!(
-        system.parts().1.state.position[0][0].to_bits(),
+        system.parts().1.particles.position()[0][0].to_bits(),
         LIMIT_BITS - 1
     );
     assert_eq!(
@@ -206,20 +210,20 @@ fn numbers_that_are_none_in_a_float_state_are_faults() {
     for bad in [f64::NAN, f64::INFINITY] {
         let build = || dust(units(), &[[0.0; 2]; 3]).build::<Float, Symplectic<Float, 2>>();
         let mut system = build();
-        system.parts().1.state.velocity[1][1] = bad;
+        system.parts().1.particles.velocity_mut()[1][1] = bad;
         assert_eq!(
             system.advance(1, &Serial),
             Err(fault(FaultKind::VelocityRange, 1, 1))
         );
         let mut system = build();
-        system.parts().1.state.density[2] = f64::NAN;
+        system.parts().1.particles.words_mut(CONSTANT)[2] = f64::NAN;
         assert_eq!(
             system.advance(1, &Serial),
             Err(fault(FaultKind::DensityNotPositive, 2, 1))
         );
     }
     let mut system = dust(units(), &[[0.0; 2]; 3]).build::<Float, Symplectic<Float, 2>>();
-    system.parts().1.state.position[1][1] = f64::NAN;
+    system.parts().1.particles.position_mut()[1][1] = f64::NAN;
     assert_eq!(
         system.advance(1, &Serial),
         Err(fault(FaultKind::PositionRange, 1, 1))
@@ -274,9 +278,12 @@ fn a_density_of_dummy_walls_that_is_not_positive_is_named_by_the_walls_id() {
     assert!(found.particle < 6);
     // C_a of the fluid raised: now it is the wall that fails.
     let mut system = recipe.symplectic();
-    for c in system.parts().1.state.density.iter_mut() {
-        *c = Quantity::ZERO;
-    }
+    system
+        .parts()
+        .1
+        .particles
+        .words_mut(CONSTANT)
+        .fill(Whole::ZERO);
     let found = system.advance(20, &Serial).unwrap_err();
     assert_eq!(
         (found.kind, found.particle),
@@ -284,7 +291,9 @@ fn a_density_of_dummy_walls_that_is_not_positive_is_named_by_the_walls_id() {
     );
 }
 
-type Heap = Owned<Fixed, Symplectic<Fixed, 2>, 2, 4200, 4200, 64>;
+type Water = Symplectic<Fixed, 2>;
+const HEAP: usize = words(<Water as Model<Fixed, 2>>::FIELDS, 2, 4200, 4200);
+type Heap = Owned<Fixed, Water, 2, 4200, 4200, 64, HEAP>;
 
 /// `n` fluid and `w` wall particles on nearly one point.
 fn heap(n: u32, w: u32, wall: Wall) -> Box<Heap> {
@@ -293,8 +302,7 @@ fn heap(n: u32, w: u32, wall: Wall) -> Box<Heap> {
         wall,
         ..units()
     };
-    let forces = Forces::new(parameters).unwrap();
-    let mut system = Box::new(Heap::new(Symplectic::new(forces)).unwrap());
+    let mut system = Box::new(Heap::new(Water::new(parameters).unwrap()).unwrap());
     for i in 0..n {
         system
             .push_fluid([1e-7 * f64::from(i), 0.0], [0.0; 2])
@@ -357,8 +365,7 @@ fn push(sound_speed: f64, energy: f64, gravity: f64, speed: f64) -> Result<[f64;
         },
         ..units()
     };
-    let mut system =
-        Box::new(Heap::new(Symplectic::new(Forces::new(parameters).unwrap())).unwrap());
+    let mut system = Box::new(Heap::new(Water::new(parameters).unwrap()).unwrap());
     system.push_fluid([0.0; 2], [speed, 0.0]).unwrap();
     for _ in 0..MAX_NEIGHBOURS {
         system.push_fluid([-0.15, 0.0], [0.0; 2]).unwrap();
@@ -367,7 +374,7 @@ fn push(sound_speed: f64, energy: f64, gravity: f64, speed: f64) -> Result<[f64;
     system.initialise(&Serial)?;
     system.advance(1, &Serial)?;
     let (_, parts) = system.parts();
-    let v = |i: usize| parts.state.velocity[i][0].quanta::<f64>() * 2f64.powi(-40);
+    let v = |i: usize| parts.particles.velocity()[i][0].quanta() * 2f64.powi(-40);
     Ok([v(0), v(1)])
 }
 
@@ -391,19 +398,34 @@ fn faults_are_the_same_whoever_finds_them_first() {
         fault(FaultKind::Crowded, 2, 1),
     );
     assert_eq!((a.first(b), b.first(a)), (b, b));
-    let mut items = [0; 10];
-    let result = Serial.for_each(&mut items, |i, item| {
-        *item = i;
-        let id = (7 * i as u64 + 3) % 10;
-        if id.is_multiple_of(2) {
-            Err(fault(FaultKind::TermRange, 10 + id, 0))
-        } else {
-            Ok(())
-        }
-    });
+    let mut ids = std::array::from_fn::<u64, 10, _>(|i| 10 + (7 * i as u64 + 3) % 10);
+    let mut memory = [Whole::ZERO; 40];
+    let fields = &[POSITION_FIELD, VELOCITY_FIELD];
+    let set = Set::<Fixed, 2>::over(&mut ids, &mut memory, 10, fields, Side::Particles);
+    let mut set = set.unwrap();
+    let result = Serial.points(&Odd, &mut set);
     assert_eq!(result, Err(fault(FaultKind::TermRange, 10, 0)));
     // All were visited, failed ones or not.
-    assert!(items.iter().enumerate().all(|(i, &item)| i == item));
+    for (id, v) in set.id.iter().zip(set.velocity()) {
+        assert_eq!(v.map(|v| v.to_word()), [*id as i64; 2]);
+    }
+}
+
+/// Writes the id into the velocity, and fails where it is even.
+struct Odd;
+
+impl PointPass<Fixed, 2> for Odd {
+    type Read<T: Copy> = [T; 0];
+    type Write<T: Copy> = [T; 2];
+    const READ: &'static [usize] = &[];
+    const WRITE: &'static [usize] = &[VELOCITY];
+    fn at(&self, id: u64, _: &[Whole; 0], v: &mut [Whole; 2]) -> Result<(), Fault> {
+        *v = [Whole::from_word(id as i64); 2];
+        match id % 2 {
+            0 => Err(Fault::new(FaultKind::TermRange, id)),
+            _ => Ok(()),
+        }
+    }
 }
 
 #[test]
@@ -444,7 +466,7 @@ fn a_fault_found_while_measuring_names_the_step_that_the_state_is_at() {
     system.advance(3, &Serial).unwrap();
     let mut crowd = heap(MAX_NEIGHBOURS + 2, 0, Wall::None);
     let (model, mut parts) = crowd.parts();
-    parts.progress.step = 7;
+    parts.clock.step = 7;
     let found = Diagnostics::measure(model, &mut parts, &Serial).unwrap_err();
     assert_eq!(found, fault(FaultKind::Crowded, 0, 7));
 }
@@ -462,19 +484,9 @@ fn a_density_that_is_not_positive_has_no_energy() {
             }
             let (model, mut parts) = system.parts();
             shuffle(&mut parts, seed);
-            parts.progress.step = 3;
+            parts.clock.step = 3;
             let found = Diagnostics::measure(model, &mut parts, &Serial).unwrap_err();
             assert_eq!(found, fault(FaultKind::DensityNotPositive, 0, 3));
         }
     }
-}
-
-#[test]
-fn a_slice_of_the_wrong_length_is_a_fault_when_the_run_is_set_up() {
-    let mut system = heap(4, 2, Wall::Dummy);
-    let (model, mut parts) = system.parts();
-    let impulse = std::mem::take(&mut parts.scratch.impulse);
-    parts.scratch.impulse = &mut impulse[..3];
-    let found = model.initialise(&mut parts, &Serial);
-    assert_eq!(found, Err(fault(FaultKind::Capacity("impulse"), 0, 0)));
 }

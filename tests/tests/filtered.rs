@@ -2,7 +2,7 @@
 
 use loschmidt_core::integrator::STORMER_VERLET;
 use loschmidt_core::kernel::WendlandC2;
-use loschmidt_core::model::{DensityCorrection, Wall};
+use loschmidt_core::schemes::wcsph::{DensityCorrection, Wall};
 use loschmidt_core::{Filtered, Fixed, Model, Reversibility, Serial, Symplectic};
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::filter::shepard;
@@ -26,7 +26,7 @@ fn filtered_every<const D: usize>(mut recipe: Recipe<D>, every: u64) -> Recipe<D
 /// The average of u over fluid and walls (at rest), in plain doubles.
 fn average<const D: usize>(recipe: &Recipe<D>, walls: bool) -> Vec<[f64; D]> {
     let h = recipe.parameters.support_radius;
-    let kernel = WendlandC2::<f64>::new(D, h, 1.0);
+    let kernel = WendlandC2::new(D, h, 1.0);
     let at_rest = recipe.walls.iter().map(|x| (*x, [0.0; D]));
     let walls: Vec<_> = at_rest.filter(|_| walls).collect();
     let of = |(x, _): &([f64; D], [f64; D])| {
@@ -184,7 +184,7 @@ fn the_passive_filter_averages_a_copy_and_leaves_the_state_alone() {
     let frame = player.frame().expect("densities");
     let filtered = shepard(&scene, &frame);
     assert_eq!(player.save(), before);
-    let kernel = WendlandC2::<f64>::new(2, scene.support_radius(), 1.0);
+    let kernel = WendlandC2::new(2, scene.support_radius(), 1.0);
     let mass = frame.particle_mass;
     for (x, found) in frame.position.iter().zip(&filtered) {
         let (mut sum, mut gamma) = ([0.0; 2], 0.0);
@@ -197,7 +197,7 @@ fn the_passive_filter_averages_a_copy_and_leaves_the_state_alone() {
             .position
             .iter()
             .zip(&frame.velocity)
-            .zip(&frame.density)
+            .zip(frame.column("density").expect("a column"))
         {
             add(y, mass / rho, u);
         }

@@ -32,7 +32,7 @@ fn corrected(side: usize) -> (Vec<[f64; 2]>, Report) {
 /// Largest |ρ - ρ0|/ρ0, every particle with every other.
 fn error<const D: usize>(fluid: &[[f64; D]]) -> f64 {
     let settings = settings::<D>();
-    let kernel = WendlandC2::<f64>::new(D, settings.support_radius, 1.0);
+    let kernel = WendlandC2::new(D, settings.support_radius, 1.0);
     let density = |a: &[f64; D]| -> f64 {
         let weight = |b: &[f64; D]| {
             let r2: f64 = (0..D).map(|d| (a[d] - b[d]).powi(2)).sum();
@@ -132,7 +132,8 @@ fn first_error(scene: &Scene, options: Options) -> f64 {
         .unwrap_or_else(|error| panic!("{error}"));
     let mut player = Player::new(scene.clone(), initial, options).expect("a simulation");
     let rho0 = scene.fluid.reference_density;
-    let density = player.frame().expect("densities").density;
+    let frame = player.frame().expect("densities");
+    let density = frame.column("density").expect("a column");
     let off = density.iter().map(|rho| (rho / rho0 - 1.0).abs());
     off.fold(0.0, f64::max)
 }
@@ -205,5 +206,5 @@ fn the_corrected_dam_break_has_no_constants_and_returns_exactly() {
     let scene = scene("dam-break", &set);
     let initial = scene.initial_state().expect("a state");
     let mut player = Player::new(scene, initial, threads(2)).expect("a simulation");
-    assert!(player.save().fields[2].1.iter().all(|&c| c == 0));
+    assert!(player.save().fields[2].words.iter().all(|&c| c == 0));
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 const SUPPORT: f64 = 0.37;
 
-fn kernel(dimension: usize) -> WendlandC2<f64> {
+fn kernel(dimension: usize) -> WendlandC2 {
     WendlandC2::new(dimension, SUPPORT, 1.0)
 }
 
@@ -61,7 +61,7 @@ fn derivative_over_r_is_the_derivative_of_the_value_over_r() {
 #[test]
 fn it_vanishes_at_the_support_and_beyond() {
     for dimension in [2, 3] {
-        let w = WendlandC2::<f64>::new(dimension, 0.25, 1.0);
+        let w = WendlandC2::new(dimension, 0.25, 1.0);
         for r in [0.25, 0.25f64.next_up(), 0.3, 1e9] {
             assert_eq!(w.value(r), 0.0);
             assert_eq!(w.derivative_over_r(r), 0.0);
@@ -101,7 +101,7 @@ fn a_unit_that_is_a_power_of_two_changes_no_bit() {
     for dimension in [2, 3] {
         let (metres, quanta) = (
             kernel(dimension),
-            WendlandC2::<f64>::new(dimension, SUPPORT, quantum),
+            WendlandC2::new(dimension, SUPPORT, quantum),
         );
         for k in 0..=40 {
             let r = f64::from(k) * 0.01;

@@ -1,6 +1,6 @@
 //! The number formats and their one rounding.
 
-use loschmidt_core::number::{LIMIT_BITS, Length, Quantity, Real, Speed, power_of_two};
+use loschmidt_core::number::{LIMIT_BITS, Length, Quantity, Speed, power_of_two, round};
 use loschmidt_core::{Scale, owned::to_quanta};
 use proptest::prelude::*;
 
@@ -37,13 +37,13 @@ proptest! {
 
     #[test]
     fn rounding_is_odd(x in in_range()) {
-        let there = Real::round(x).unwrap();
-        prop_assert_eq!(Real::round(-x), Some(-there));
+        let there = round(x).unwrap();
+        prop_assert_eq!(round(-x), Some(-there));
     }
 
     #[test]
     fn rounding_goes_to_the_nearest_integer_and_ties_to_even(x in in_range()) {
-        let rounded = Real::round(x).unwrap();
+        let rounded = round(x).unwrap();
         prop_assert_eq!(rounded, nearest(x));
         prop_assert_eq!(rounded, x.round_ties_even() as i64);
     }
@@ -51,7 +51,7 @@ proptest! {
     #[test]
     fn rounding_refuses_what_is_out_of_range(bits in any::<u64>()) {
         let x = f64::from_bits(bits);
-        prop_assert_eq!(Real::round(x).is_some(), x.abs() < LIMIT);
+        prop_assert_eq!(round(x).is_some(), x.abs() < LIMIT);
     }
 
     #[test]
@@ -67,8 +67,8 @@ proptest! {
         prop_assert!(x.in_range() && y.in_range());
         let difference: f64 = x.difference(y);
         prop_assert_eq!(difference as i128, i128::from(a) - i128::from(b));
-        prop_assert_eq!(y.difference::<f64>(x), -difference);
-        prop_assert_eq!(x.quanta::<f64>() as i64, a);
+        prop_assert_eq!(y.difference(x), -difference);
+        prop_assert_eq!(x.quanta() as i64, a);
     }
 
     #[test]
@@ -112,15 +112,15 @@ proptest! {
 #[test]
 fn rounding_refuses_nan_infinity_and_the_limit_itself() {
     for x in [f64::NAN, f64::INFINITY, LIMIT, f64::MAX] {
-        assert_eq!(Real::round(x), None);
-        assert_eq!(Real::round(-x), None);
+        assert_eq!(round(x), None);
+        assert_eq!(round(-x), None);
         assert_eq!(Length::ZERO.add_rounded(x), None);
         assert_eq!(<f64 as Quantity>::ZERO.add_rounded(x), None);
     }
     // The largest number that is accepted rounds to the limit, for either sign.
     let last = LIMIT.next_down();
-    assert_eq!(Real::round(last), Some(LIMIT_BITS));
-    assert_eq!(Real::round(-last), Some(-LIMIT_BITS));
+    assert_eq!(round(last), Some(LIMIT_BITS));
+    assert_eq!(round(-last), Some(-LIMIT_BITS));
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn a_power_of_two_is_its_own_headroom() {
 
 #[test]
 fn a_negative_zero_is_a_zero() {
-    assert_eq!(Real::round(-0.0f64), Some(0));
+    assert_eq!(round(-0.0f64), Some(0));
     assert_eq!(Quantity::to_word(-0.0f64), 0);
     assert_eq!(Quantity::to_word(0.0f64), 0);
     let minus: Option<[f64; 2]> = to_quanta([-0.0, 0.0], 1.0);

@@ -2,6 +2,7 @@
 
 use loschmidt_core::{Digest, Reversibility};
 use loschmidt_runner::player::PlayerError;
+use loschmidt_runner::points::PointColumn;
 use loschmidt_runner::{ArithmeticKind, Arrow, Player, Points};
 use loschmidt_tests::program::{float, player, scene, serial, threads};
 use proptest::prelude::*;
@@ -142,12 +143,16 @@ fn sorted(player: &mut Player) -> Points {
         true => Vec::new(),
         false => order.iter().map(|&i| list[i]).collect(),
     };
+    let columns = points.columns.iter().map(|column| PointColumn {
+        measure: column.measure,
+        values: of(&column.values),
+    });
+    let columns = columns.collect();
     Points {
         id: order.iter().map(|&i| points.id[i]).collect(),
         position: points.position.each_ref().map(of),
         speed: of(&points.speed),
-        density: of(&points.density),
-        pressure: of(&points.pressure),
+        columns,
         ..points
     }
 }

@@ -1,8 +1,8 @@
 //! n steps, reversed, n steps, reversed: the first state, to the last bit.
 
+use loschmidt_core::fields::{TimeParity, state_fields};
 use loschmidt_core::integrator::{INTEGRATORS, Integrator};
-use loschmidt_core::model::{Central, DensityCorrection, Gravity, StateEquation, Wall};
-use loschmidt_core::state::TimeParity;
+use loschmidt_core::schemes::wcsph::{Central, DensityCorrection, Gravity, StateEquation, Wall};
 use loschmidt_core::{
     Fixed, Model, Parameters, Reversibility, Scale, Serial, Standard, Symplectic,
 };
@@ -97,6 +97,8 @@ fn a_particle_pushed_in_the_middle_of_a_run_is_felt_from_the_first_kick() {
         system.advance(5, &Serial).unwrap();
         system.push_fluid([0.3, 0.3], [0.0; 2]).unwrap();
         system.push_wall([0.35, 0.9]).unwrap();
+        let (model, mut parts) = system.parts();
+        model.place_walls(&mut parts, &Serial).unwrap();
         let [initial, far, last] = there_and_back(&mut system, 20);
         assert_eq!(initial, last);
         assert_ne!(initial, far);
@@ -161,13 +163,15 @@ fn reversing_twice_is_the_identity_and_once_follows_the_parity_of_the_fields() {
         .symplectic();
     system.advance(3, &Serial).unwrap();
     let before = words(&mut system);
-    let fields = system.parts().1.state.fields();
+    let (_, parts) = system.parts();
+    let side = parts.particles.side();
+    let fields = state_fields(parts.particles.fields(), side);
     system.reverse();
     for ((id, after), (same, before)) in words(&mut system).iter().zip(&before) {
         assert_eq!(id, same);
         let mut word = 0;
-        for field in fields {
-            for _ in 0..field.components {
+        for (_, field) in fields.clone() {
+            for _ in 0..field.words(side, 3) {
                 let expected = match field.parity {
                     TimeParity::Even => before[word],
                     TimeParity::Odd => -before[word],

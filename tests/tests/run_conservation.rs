@@ -104,7 +104,7 @@ fn with_dummy_walls_the_energy_is_whole_only_if_theirs_is_counted() {
         let fluid_alone: Vec<Row> = rows
             .iter()
             .map(|row| Row {
-                total: row.total - row.wall,
+                total: row.total - row.energy("wall"),
                 ..row.clone()
             })
             .collect();

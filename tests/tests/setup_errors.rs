@@ -1,11 +1,15 @@
 //! What a system refuses to be set up with is typed, and gives back what it was handed.
 
 use crate::faults::units;
-use loschmidt_core::integrator::{INTEGRATORS, PEFRL};
-use loschmidt_core::model::{Central, SetupError, Wall};
-use loschmidt_core::owned::{Owned, PushError};
-use loschmidt_core::{CapacityError, Fixed, Forces, Model, Parameters, Symplectic};
-use loschmidt_tests::small::{BUCKETS, FLUID, Recipe, Small, dam_3d, downwards, water};
+use loschmidt_core::fields::{Field, MAX_FIELDS, POSITION_FIELD, Set, Side, words_each};
+use loschmidt_core::integrator::PEFRL;
+use loschmidt_core::model::SetupError;
+use loschmidt_core::neighbours::Grid;
+use loschmidt_core::number::{Quantity, Whole};
+use loschmidt_core::owned::{Owned, PushError, words};
+use loschmidt_core::schemes::wcsph::{Central, Wall};
+use loschmidt_core::{CapacityError, Fixed, Model, Parameters, Symplectic};
+use loschmidt_tests::small::{FLUID, Recipe, downwards, water};
 
 #[test]
 fn a_full_system_gives_the_particle_back() {
@@ -27,10 +31,7 @@ fn a_full_system_gives_the_particle_back() {
         Err(PushError::Full { position })
     );
     let (_, parts) = system.parts();
-    assert_eq!(
-        (parts.state.len(), parts.walls.position.len()),
-        (FLUID, 512)
-    );
+    assert_eq!((parts.particles.len(), parts.walls.len()), (FLUID, 512));
     assert_ne!(system.digest(), before);
 }
 
@@ -57,76 +58,115 @@ fn a_particle_outside_the_range_is_given_back() {
             Err(PushError::Range { position })
         );
     }
-    assert!(system.parts().1.state.is_empty());
+    assert!(system.parts().1.particles.is_empty());
+}
+
+type Water = Symplectic<Fixed, 2>;
+const FIELDS: &[Field] = <Water as Model<Fixed, 2>>::FIELDS;
+/// Words of four particles and three walls.
+const TINY: usize = words(FIELDS, 2, 4, 3);
+type Tiny<const B: usize, const K: usize> = Owned<Fixed, Water, 2, 4, 3, B, K>;
+
+/// With nine buckets.
+fn tiny() -> Water {
+    let model = Water::new(Parameters {
+        max_buckets: 9,
+        ..water()
+    });
+    let model = model.unwrap();
+    assert_eq!(model.grids().map(Grid::buckets), [9, 9]);
+    model
 }
 
 #[test]
 fn too_small_a_grid_is_a_capacity_error() {
-    type Tiny<const B: usize> = Owned<Fixed, Symplectic<Fixed, 2>, 2, 4, 4, B>;
-    let forces = || {
-        Forces::<Fixed, 2>::new(Parameters {
-            max_buckets: 9,
-            ..water()
-        })
-        .unwrap()
+    assert!(Tiny::<10, TINY>::new(tiny()).is_ok());
+    let expected = CapacityError {
+        what: "cell start",
+        needed: 10,
+        given: 9,
     };
-    assert_eq!(forces().grid().buckets(), 9);
-    assert!(Tiny::<10>::new(Symplectic::new(forces())).is_ok());
-    let error = Tiny::<9>::new(Symplectic::new(forces())).err();
-    assert_eq!(
-        error,
-        Some(CapacityError {
-            what: "cell start",
-            needed: 10,
-            given: 9
-        })
-    );
+    assert_eq!(Tiny::<9, TINY>::new(tiny()).err(), Some(expected));
 }
 
 #[test]
-fn slices_of_unequal_length_are_named() {
-    let mut system: Box<Small<Symplectic<Fixed, 3>, 3>> =
-        dam_3d(Wall::Dummy, INTEGRATORS[0]).symplectic();
-    let (model, parts) = system.parts();
-    let (buckets, wall_buckets) = {
-        let forces = model.forces();
-        (forces.grid().buckets(), forces.wall_grid().buckets())
+fn too_little_memory_for_the_fields_is_a_capacity_error() {
+    // x, v, C, ρ, p, J of a particle; x, v, C, ρ, p and what is fixed of ρ of a wall.
+    assert_eq!(TINY, 4 * (3 * 2 + 3) + 3 * (2 * 2 + 4));
+    let expected = CapacityError {
+        what: "words of memory",
+        needed: TINY,
+        given: TINY - 1,
     };
-    assert!(buckets < BUCKETS);
-    assert_eq!(parts.check_capacity(buckets, wall_buckets), Ok(()));
-    let error = parts.check_capacity(buckets + 1, wall_buckets).unwrap_err();
-    assert_eq!(
-        (error.what, error.needed, error.given),
-        ("cell start", buckets + 2, buckets + 1)
-    );
-    let error = parts.check_capacity(buckets, wall_buckets - 1).unwrap_err();
-    assert_eq!(error.what, "wall cell start");
+    const LESS: usize = TINY - 1;
+    assert_eq!(Tiny::<10, LESS>::new(tiny()).err(), Some(expected));
+    const MORE: usize = TINY + 1;
+    assert!(Tiny::<10, MORE>::new(tiny()).is_ok());
+}
 
-    macro_rules! short {
-        ($($field:ident).+, $what:literal) => {{
-            let (_, mut parts) = system.parts();
-            let slice = std::mem::take(&mut parts.$($field).+);
-            let n = slice.len();
-            parts.$($field).+ = &mut slice[1..];
-            let error = parts.check_capacity(buckets, wall_buckets).unwrap_err();
-            assert_eq!(error, CapacityError { what: $what, needed: n, given: n - 1 });
-        }};
+#[test]
+fn lent_memory_that_is_too_small_is_named() {
+    for (side, each) in [(Side::Particles, 9), (Side::Walls, 8)] {
+        assert_eq!(words_each(FIELDS, side, 2), each);
+        let over = |particles: usize, words: usize, room: usize| {
+            let (mut id, mut memory) = (vec![0; particles], vec![Whole::ZERO; words]);
+            let set = Set::<Fixed, 2>::over(&mut id, &mut memory, room, FIELDS, side);
+            set.map(|set| set.len())
+        };
+        for room in 0..4 {
+            for particles in 0..=room {
+                assert_eq!(over(particles, room * each, room), Ok(particles));
+            }
+            let (needed, given) = (room + 1, room);
+            let what = "particles";
+            let expected = CapacityError {
+                what,
+                needed,
+                given,
+            };
+            assert_eq!(over(room + 1, 100, room), Err(expected));
+        }
+        for words in 0..3 * each {
+            let expected = CapacityError {
+                what: "words of the particles",
+                needed: 3 * each,
+                given: words,
+            };
+            assert_eq!(over(2, words, 3), Err(expected));
+        }
+        // No product of sizes wraps.
+        let error = over(1, 100, usize::MAX).unwrap_err();
+        assert_eq!((error.needed, error.given), (usize::MAX, 100));
     }
-    short!(state.position, "position");
-    short!(state.velocity, "velocity");
-    short!(state.density, "density");
-    short!(scratch.density, "scratch density");
-    short!(scratch.pressure, "pressure");
-    short!(scratch.impulse, "impulse");
-    short!(scratch.cells.order, "cell order");
-    short!(scratch.cells.start, "cell start");
-    short!(walls.velocity, "wall velocity");
-    short!(walls.density, "wall density field");
-    short!(scratch.wall_cells.order, "wall cell order");
-    short!(scratch.wall_cells.start, "wall cell start");
-    short!(scratch.wall_density, "wall density");
-    short!(scratch.wall_density_fixed, "fixed wall density");
-    short!(scratch.wall_pressure, "wall pressure");
+    const MANY: [Field; MAX_FIELDS + 1] = [POSITION_FIELD; MAX_FIELDS + 1];
+    let set = Set::<Fixed, 2>::over(&mut [], &mut [], 0, &MANY, Side::Particles);
+    let expected = CapacityError {
+        what: "fields of a particle",
+        needed: MAX_FIELDS + 1,
+        given: MAX_FIELDS,
+    };
+    assert_eq!(set.err(), Some(expected));
+}
+
+#[test]
+fn a_sets_fields_lie_one_after_another_with_room_after_each() {
+    let mut memory: Vec<Whole> = (0..3 * 9).map(Whole::from_word).collect();
+    let mut id = [7, 5];
+    let set = Set::<Fixed, 2>::over(&mut id, &mut memory, 3, FIELDS, Side::Particles).unwrap();
+    let first = [0, 6, 12, 15, 18, 21];
+    for (field, first) in first.into_iter().enumerate() {
+        let each = FIELDS[field].words(Side::Particles, 2);
+        let expected: Vec<i64> = (first..first + 2 * each as i64).collect();
+        let found: Vec<i64> = set.words(field).iter().map(|w| w.to_word()).collect();
+        assert_eq!(found, expected, "{}", FIELDS[field].name);
+        for place in 0..2 {
+            for c in 0..each {
+                assert_eq!(set.word(field, c, place), expected[place * each + c]);
+            }
+        }
+    }
+    // Particles that move have no fixed density.
+    assert!(set.words(first.len()).is_empty());
 }
 
 #[test]
@@ -137,7 +177,7 @@ fn parameters_out_of_range_are_named() {
             ..water::<2>()
         };
         change(&mut p);
-        match Forces::<Fixed, 2>::new(p) {
+        match Water::new(p) {
             Err(SetupError::Parameter { name, .. }) => name,
             Err(SetupError::Support { .. }) => "support",
             Ok(_) => "fine",

@@ -4,13 +4,21 @@ use loschmidt_core::Scale;
 use loschmidt_core::digest::hash;
 use loschmidt_runner::output::Snapshot;
 use loschmidt_runner::output::snapshot::Damage;
+use loschmidt_runner::saved::SavedField;
 use loschmidt_runner::{ArithmeticKind, Arrow, SavedState};
 use loschmidt_tests::program::{float, player, scene, serial};
 use proptest::prelude::*;
 
+fn field(name: &str, odd: bool, words: Vec<i64>) -> SavedField {
+    SavedField {
+        name: name.to_owned(),
+        odd,
+        words,
+    }
+}
+
 /// Two particles and a wall in the plane.
 fn tiny() -> Snapshot {
-    let field = |name: &str, words: &[i64]| (name.to_owned(), words.to_vec());
     Snapshot {
         scene: *b"sixteen bytes ab",
         position: 3,
@@ -26,12 +34,15 @@ fn tiny() -> Snapshot {
             step: 17,
             id: vec![0, 1],
             fields: vec![
-                field("position", &[1, -2, i64::MAX, i64::MIN]),
-                field("velocity", &[5, 0, -7, 8]),
-                field("density_constant", &[9, -10]),
+                field("position", false, vec![1, -2, i64::MAX, i64::MIN]),
+                field("velocity", true, vec![5, 0, -7, 8]),
+                field("density_constant", false, vec![9, -10]),
             ],
-            wall_position: vec![11, -12],
-            wall_density: vec![13],
+            walls: 1,
+            wall_fields: vec![
+                field("position", false, vec![11, -12]),
+                field("density_constant", false, vec![13]),
+            ],
         },
     }
 }
@@ -110,8 +121,17 @@ fn the_reason_of_a_refusal_is_told() {
     assert_eq!(refused(&|b| b[0] = b'l'), "it does not begin with LSCHSNAP");
     assert_eq!(refused(&|b| b.clear()), "it does not begin with LSCHSNAP");
     assert_eq!(
+        refused(&|b| b[8] = 3),
+        "its format version is 3; this program reads versions 1 to 2"
+    );
+    assert_eq!(
+        refused(&|b| b[8] = 0),
+        "its format version is 0; this program reads versions 1 to 2"
+    );
+    // Of another version, but with the checksum of this one.
+    assert_eq!(
         refused(&|b| b[8] = 2),
-        "its format version is 2; this program reads version 1"
+        "its checksum does not match: it was cut off or changed"
     );
     assert_eq!(
         refused(&|b| b[100] ^= 1),
@@ -140,17 +160,68 @@ fn seal(bytes: &mut [u8]) {
 
 fn snapshots() -> impl Strategy<Value = Snapshot> {
     let sizes = (2usize..4, 0usize..7, 0usize..5);
-    let words = |n| prop::collection::vec(any::<i64>(), n);
+    let fields = sizes.prop_flat_map(move |(d, n, w)| {
+        let fluid = [
+            saved("position", false, d * n).boxed(),
+            saved("velocity", true, d * n).boxed(),
+            saved("density", false, n).boxed(),
+        ];
+        let walls = [
+            saved("position", false, d * w).boxed(),
+            saved("density", false, w).boxed(),
+        ];
+        (Just((d, n, w)), fluid, walls)
+    });
+    snapshots_of(fields.prop_map(|(sizes, fluid, walls)| (sizes, fluid.into(), walls.into())))
+}
+
+/// Snapshots of models to come: any fields after the first two, walls with a position alone or with
+/// more. Never what version 1 can hold.
+fn snapshots_of_other_fields() -> impl Strategy<Value = Snapshot> {
+    let sizes = (2usize..4, 0usize..7, 0usize..5);
+    let fields = sizes.prop_flat_map(move |(d, n, w)| {
+        let shapes = prop_oneof![Just(1), Just(d), Just(d * (d + 1) / 2), Just(d * d)];
+        let kind = ("[a-z][a-z_ ]{0,20}", any::<bool>(), shapes);
+        let others = |particles: usize, kinds: Vec<(String, bool, usize)>| -> Vec<_> {
+            let kinds = kinds.into_iter();
+            kinds
+                .map(|(name, odd, each)| saved(&name, odd, each * particles).boxed())
+                .collect()
+        };
+        // Water's walls have two fields: these have one, or more than two.
+        let more = prop_oneof![Just(Vec::new()), prop::collection::vec(kind.clone(), 2..5)];
+        let more = more.prop_flat_map(move |kinds| others(w, kinds));
+        let fluid = prop::collection::vec(kind, 0..6);
+        let fluid = fluid.prop_flat_map(move |kinds| others(n, kinds));
+        let first = (
+            saved("position", false, d * n),
+            saved("velocity", true, d * n),
+            saved("position", false, d * w),
+        );
+        (Just((d, n, w)), first, fluid, more)
+    });
+    snapshots_of(fields.prop_map(|(sizes, (x, v, wall), fluid, more)| {
+        let fluid = [x, v].into_iter().chain(fluid).collect();
+        let walls = std::iter::once(wall).chain(more).collect();
+        (sizes, fluid, walls)
+    }))
+}
+
+/// A field of this name with so many words.
+fn saved(name: &str, odd: bool, words: usize) -> impl Strategy<Value = SavedField> + use<> {
+    let name = name.to_owned();
+    prop::collection::vec(any::<i64>(), words).prop_map(move |words| field(&name, odd, words))
+}
+
+/// Dimension, numbers of particles and walls, and their fields.
+type Contents = ((usize, usize, usize), Vec<SavedField>, Vec<SavedField>);
+
+fn snapshots_of(fields: impl Strategy<Value = Contents>) -> impl Strategy<Value = Snapshot> {
     let exponents = [-999i32..1000, -999i32..1000, -999i32..1000];
     let when = (any::<u64>(), any::<i64>(), any::<bool>(), any::<bool>());
-    let fields = sizes.prop_flat_map(move |(d, n, w)| {
-        let fields = (words(d * n), words(d * n), words(n));
-        (Just((d, n)), fields, words(d * w), words(w))
-    });
     (any::<[u8; 16]>(), exponents, when, fields).prop_map(
         |(scene, [k, j, d], (step, position, backward, fixed), fields)| {
-            let ((dimension, n), (x, v, rho), wall_position, wall_density) = fields;
-            let name = |name: &str, words| (name.to_owned(), words);
+            let ((dimension, n, walls), fields, wall_fields) = fields;
             Snapshot {
                 scene,
                 position,
@@ -173,13 +244,9 @@ fn snapshots() -> impl Strategy<Value = Snapshot> {
                     },
                     step,
                     id: (0..n as u64).collect(),
-                    fields: vec![
-                        name("position", x),
-                        name("velocity", v),
-                        name("density", rho),
-                    ],
-                    wall_position,
-                    wall_density,
+                    fields,
+                    walls,
+                    wall_fields,
                 },
             }
         },
@@ -189,7 +256,9 @@ fn snapshots() -> impl Strategy<Value = Snapshot> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
     #[test]
-    fn what_is_written_is_read(snapshot in snapshots()) {
+    fn what_is_written_is_read(
+        snapshot in prop_oneof![snapshots(), snapshots_of_other_fields()],
+    ) {
         let bytes = snapshot.to_bytes();
         let read = Snapshot::from_bytes(&bytes).expect("it was just written");
         prop_assert_eq!(&read, &snapshot);
@@ -201,7 +270,7 @@ proptest! {
     /// never more than the file says.
     #[test]
     fn forged_bytes_do_no_harm(
-        snapshot in snapshots(),
+        snapshot in prop_oneof![snapshots(), snapshots_of_other_fields()],
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
     ) {
         let mut bytes = snapshot.to_bytes();
@@ -212,9 +281,131 @@ proptest! {
         seal(&mut bytes);
         if let Ok(read) = Snapshot::from_bytes(&bytes) {
             let _ = read.digest();
-            if !read.state.id.is_empty() {
+            // How many numbers nobody has is not kept.
+            let counted = !read.state.id.is_empty() && read.state.walls > 0;
+            if counted || read.to_bytes()[8] == 1 && !read.state.id.is_empty() {
                 prop_assert_eq!(read.to_bytes(), bytes);
             }
+        }
+    }
+
+    #[test]
+    fn only_water_is_written_as_version_1(
+        water in snapshots(),
+        other in snapshots_of_other_fields(),
+    ) {
+        prop_assert_eq!(water.to_bytes()[8], 1);
+        prop_assert_eq!(other.to_bytes()[8], 2);
+    }
+
+    #[test]
+    fn the_digest_of_other_fields_turns_the_odd_ones(snapshot in snapshots_of_other_fields()) {
+        let mut turned = snapshot.clone();
+        turned.arrow = turned.arrow.turned();
+        let fixed = turned.state.arithmetic == ArithmeticKind::Fixed;
+        let state = &mut turned.state;
+        let fields = state.fields.iter_mut().chain(&mut state.wall_fields);
+        for word in fields.filter(|field| field.odd).flat_map(|field| &mut field.words) {
+            *word = match fixed {
+                true => word.wrapping_neg(),
+                // A negative zero in a snapshot counts as a zero on the way back alone.
+                false if f64::from_bits(*word as u64) == 0.0 => 0,
+                false if f64::from_bits(*word as u64).is_nan() => return Ok(()),
+                false => (-f64::from_bits(*word as u64)).to_bits() as i64,
+            };
+        }
+        let zeros = snapshot.state.fields.iter().chain(&snapshot.state.wall_fields);
+        let mut zeros = zeros.flat_map(|field| &field.words);
+        prop_assume!(fixed || zeros.all(|word| *word != i64::MIN));
+        prop_assert_eq!(turned.digest(), snapshot.digest());
+    }
+}
+
+/// Two particles with an odd matrix, and a wall that has nothing but its place.
+fn tiny_of_other_fields() -> Snapshot {
+    let mut snapshot = tiny();
+    let state = &mut snapshot.state;
+    state.fields[2] = field("deformation", true, (1..=8).collect());
+    state.wall_fields.truncate(1);
+    snapshot
+}
+
+#[test]
+fn the_bytes_of_a_snapshot_of_other_fields_are_as_documented() {
+    let bytes = tiny_of_other_fields().to_bytes();
+    let word = |n: i64| n.to_le_bytes();
+    let mut expected = Vec::new();
+    expected.extend_from_slice(b"LSCHSNAP");
+    expected.extend(word(2));
+    expected.extend_from_slice(b"sixteen bytes ab");
+    for n in [2, 0, -1, 2, 0, 17, 3, 1, 2, 1, 3] {
+        expected.extend(word(n));
+    }
+    let add = |to: &mut Vec<u8>, odd: i64, name: &[u8], components: i64, words: &[i64]| {
+        to.extend(word(odd));
+        to.extend(word(name.len() as i64));
+        to.extend_from_slice(name);
+        to.extend(word(components));
+        words.iter().for_each(|n| to.extend(word(*n)));
+    };
+    let position = [1, -2, i64::MAX, i64::MIN];
+    add(&mut expected, 0, b"position", 2, &position);
+    add(&mut expected, 1, b"velocity", 2, &[5, 0, -7, 8]);
+    let matrices = [1, 2, 3, 4, 5, 6, 7, 8];
+    add(&mut expected, 1, b"deformation", 4, &matrices);
+    // Two ids, one field of walls.
+    for n in [0, 1, 1] {
+        expected.extend(word(n));
+    }
+    add(&mut expected, 0, b"position", 2, &[11, -12]);
+    let checksum = hash(&expected);
+    expected.extend_from_slice(&checksum);
+    assert_eq!(bytes, expected);
+}
+
+#[test]
+fn damage_of_a_snapshot_of_other_fields_is_noticed_and_told() {
+    let whole = tiny_of_other_fields().to_bytes();
+    assert_eq!(Snapshot::from_bytes(&whole), Ok(tiny_of_other_fields()));
+    for bit in 0..8 * whole.len() {
+        let mut bytes = whole.clone();
+        bytes[bit / 8] ^= 1 << (bit % 8);
+        assert!(Snapshot::from_bytes(&bytes).is_err(), "bit {bit}");
+    }
+    for length in 0..whole.len() {
+        assert!(Snapshot::from_bytes(&whole[..length]).is_err(), "{length}");
+        // Cut off by somebody who knows the checksum.
+        let mut bytes = whole[..length].to_vec();
+        bytes.extend_from_slice(&hash(&whole[..length]));
+        assert!(Snapshot::from_bytes(&bytes).is_err(), "{length}");
+    }
+    let forged = |place: usize, value: u8| {
+        let mut bytes = whole.clone();
+        bytes[place] = value;
+        seal(&mut bytes);
+        let refused = Snapshot::from_bytes(&bytes).expect_err("refused");
+        refused.to_string()
+    };
+    // After the head of 120 bytes: parity, length of the name, name, components, words.
+    assert_eq!(forged(120, 2), "its parity of a field is impossible");
+    assert_eq!(forged(127, 255), "its parity of a field is impossible");
+    assert_eq!(forged(135, 255), "its name of a field is impossible");
+    assert_eq!(forged(136, 255), "its name of a field is impossible");
+    assert_eq!(forged(144, 1), "its list of fields is impossible");
+    assert_eq!(forged(150, 255), "its field is impossible");
+    // Of the last field, two words for a particle that should be in the plane.
+    let wall = whole.len() - 16 - 24;
+    assert_eq!(forged(wall, 1), "its list of fields is impossible");
+}
+
+/// A file may not make a reader write beyond its arrays: numbers of a particle that no model has.
+#[test]
+fn more_numbers_than_a_digest_takes_are_refused_or_digested() {
+    let mut snapshot = tiny_of_other_fields();
+    for words in [58, 59, 200] {
+        snapshot.state.fields[2].words = vec![1; 2 * words];
+        if let Ok(read) = Snapshot::from_bytes(&snapshot.to_bytes()) {
+            let _ = read.digest();
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The standard scheme: what the reversible one is compared with.
 
+use loschmidt_core::fields::{Role, TimeParity};
 use loschmidt_core::integrator::STORMER_VERLET;
-use loschmidt_core::model::{StateEquation, Wall};
-use loschmidt_core::number::Quantity;
-use loschmidt_core::state::DensityRole;
+use loschmidt_core::number::{Quantity, Whole};
+use loschmidt_core::schemes::wcsph::{CONSTANT, DENSITY, StateEquation, Wall};
 use loschmidt_core::{Fixed, Model, Serial, Standard, Symplectic};
 use loschmidt_tests::permitted;
 use loschmidt_tests::small::{
@@ -46,25 +46,16 @@ fn starts_at_rho_0<const D: usize>(recipe: &Recipe<D>) {
     let mut system = recipe.build::<Fixed, Standard<Fixed, D>>();
     let quantum = recipe.parameters.scale.density_quantum();
     let rho0 = (recipe.parameters.reference_density / quantum) as i64;
-    assert_eq!(measure(&mut system).energies.internal, 0.0);
+    assert_eq!(measure(&mut system).energies.get("internal"), 0.0);
     let (_, parts) = system.parts();
-    assert!(parts.state.density.iter().all(|rho| rho.to_word() == rho0));
-    assert!(
-        parts
-            .scratch
-            .density
-            .iter()
-            .all(|rho| rho.to_word() == rho0)
-    );
+    for field in [CONSTANT, DENSITY] {
+        let mut densities = parts.particles.words(field).iter();
+        assert!(densities.all(|rho| rho.to_word() == rho0));
+    }
     let dummies = recipe.parameters.wall == Wall::Dummy;
     let of_walls = if dummies { rho0 } else { 0 };
-    assert!(
-        parts
-            .walls
-            .density
-            .iter()
-            .all(|rho| rho.to_word() == of_walls)
-    );
+    let mut densities = parts.walls.words(CONSTANT).iter();
+    assert!(densities.all(|rho| rho.to_word() == of_walls));
 }
 
 #[test]
@@ -72,20 +63,22 @@ fn density_starts_at_the_reference_density_of_fluid_and_dummies() {
     every_dam(starts_at_rho_0, starts_at_rho_0);
 }
 
+/// The densities of the state.
+fn densities<const D: usize>(system: &mut Small<Standard<Fixed, D>, D>) -> Vec<Whole> {
+    system.parts().1.particles.words(CONSTANT).to_vec()
+}
+
 #[test]
 fn its_density_is_a_field_that_evolves() {
     let mut system = dam_2d(Wall::Dummy, &STORMER_VERLET).build::<Fixed, Standard<Fixed, 2>>();
-    assert_eq!(
-        <Standard<Fixed, 2> as Model<Fixed, 2>>::DENSITY_ROLE,
-        DensityRole::Evolved
-    );
-    let before = system.parts().1.state.density.to_vec();
-    let walls = system.parts().1.walls.density.to_vec();
+    let field = <Standard<Fixed, 2> as Model<Fixed, 2>>::FIELDS[CONSTANT];
+    assert_eq!((field.name, field.parity), ("density", TimeParity::Even));
+    assert_eq!([field.particles, field.walls], [Role::State; 2]);
+    let before = densities(&mut system);
+    let walls = system.parts().1.walls.words(CONSTANT).to_vec();
     system.advance(10, &Serial).unwrap();
-    let (_, parts) = system.parts();
-    assert_eq!(parts.state.fields()[2].name, "density");
-    assert_ne!(parts.state.density, before);
-    assert_ne!(parts.walls.density, walls);
+    assert_ne!(densities(&mut system), before);
+    assert_ne!(system.parts().1.walls.words(CONSTANT), walls);
 }
 
 #[test]
@@ -95,9 +88,9 @@ fn in_rigid_translation_no_density_changes() {
         *v = [1.0, -2.0, 0.5];
     }
     let mut system = recipe.build::<Fixed, Standard<Fixed, 3>>();
-    let before = system.parts().1.state.density.to_vec();
+    let before = densities(&mut system);
     system.advance(10, &Serial).unwrap();
-    assert_eq!(system.parts().1.state.density, before);
+    assert_eq!(densities(&mut system), before);
 }
 
 /// Under a uniform compression at rate k, dρ/dt = Σ m (W'/r) u·x with u = -k x: positive, the same
@@ -110,9 +103,9 @@ fn compression_raises_the_density() {
         *v = x.map(|x| -0.5 * (x - middle));
     }
     let mut system = recipe.build::<Fixed, Standard<Fixed, 2>>();
-    let before = system.parts().1.state.density.to_vec();
+    let before = densities(&mut system);
     system.advance(1, &Serial).unwrap();
-    let after = system.parts().1.state.density.to_vec();
+    let after = densities(&mut system);
     assert!(before.iter().zip(&after).all(|(b, a)| a > b));
 }
 
@@ -121,7 +114,7 @@ fn distance<const D: usize>(
     a: &mut Small<Symplectic<Fixed, D>, D>,
     b: &mut Small<Standard<Fixed, D>, D>,
 ) -> f64 {
-    let n = a.parts().1.state.len();
+    let n = a.parts().1.particles.len();
     (0..n).fold(0.0, |largest: f64, i| {
         let (x, y) = (position(a, i), position(b, i));
         (0..D).fold(largest, |largest, d| largest.max((x[d] - y[d]).abs()))
