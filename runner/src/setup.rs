@@ -2,7 +2,7 @@
 
 use crate::isc;
 use crate::player::Player;
-use crate::scene::{self, InitialState, Point, Scene};
+use crate::scene::{self, InitialState, Scene, Vector3};
 use crate::simulation::{BuildError, ModelKind, Options, Simulation, build};
 use crate::storage;
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
@@ -44,7 +44,7 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             scene::EquationOfState::Tait => StateEquation::Tait,
             scene::EquationOfState::Linear => StateEquation::Linear,
         },
-        density_correction: match scene.density_correction {
+        density_correction: match scene.water.density_correction {
             scene::DensityCorrection::Constant => DensityCorrection::Constant,
             scene::DensityCorrection::Isc | scene::DensityCorrection::None => {
                 DensityCorrection::None
@@ -63,7 +63,7 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             pressure: scene.fluid.anti_clump_pressure,
             support_radius: scene.fluid.anti_clump_radius * scene.particle_spacing,
         }),
-        filter_every: scene.filter_every,
+        filter_every: scene.water.filter_every,
         integrator: integrator(scene.integrator),
         scale: Scale::with_headroom(
             // A drop that is smaller than its kernel must still leave room for the kernel.
@@ -88,7 +88,7 @@ pub fn integrator(integrator: scene::Integrator) -> &'static Integrator {
 }
 
 fn wall(scene: &Scene) -> Wall {
-    match (scene.wall_model, scene.wall) {
+    match (scene.water.wall_model, scene.wall) {
         (scene::WallModel::Conservative, Some(wall)) => Wall::Conservative {
             energy: wall.energy,
             radius: wall.radius * scene.particle_spacing,
@@ -102,7 +102,7 @@ fn wall(scene: &Scene) -> Wall {
 
 /// The largest speed at the start, m/s.
 fn fastest(initial: &InitialState) -> f64 {
-    let speed = |v: &Point| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let speed = |v: &Vector3| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     initial.fluid_velocity.iter().map(speed).fold(0.0, f64::max)
 }
 
@@ -110,7 +110,7 @@ fn max_buckets(particles: usize) -> usize {
     2 * particles
 }
 
-fn first<const D: usize>(x: Point) -> [f64; D] {
+fn first<const D: usize>(x: Vector3) -> [f64; D] {
     std::array::from_fn(|d| x[d])
 }
 
@@ -119,7 +119,7 @@ struct Bounds {
     /// Largest |coordinate|, m.
     farthest: f64,
     /// Size of the bounding box, m.
-    extent: Point,
+    extent: Vector3,
 }
 
 impl Bounds {
@@ -156,7 +156,7 @@ pub fn estimated_bytes(scene: &Scene) -> u64 {
     let initial = 48 * fluid + 24 * walls;
     let saved = 3 * 8 * ((2 * dimension + 2) * fluid + (dimension + 1) * walls);
     let frame = 72 * fluid + 24 * walls;
-    let correction = match scene.density_correction {
+    let correction = match scene.water.density_correction {
         scene::DensityCorrection::Isc => isc::estimated_bytes(dimension, scene.support, fluid),
         scene::DensityCorrection::Constant | scene::DensityCorrection::None => 0,
     };

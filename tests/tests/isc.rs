@@ -160,7 +160,7 @@ fn dummy_walls_are_corrected_with_the_fluid() {
         );
         let corrected = corrected_scene(2, 0.04, "dummy", &text);
         let mut plain = corrected.clone();
-        plain.density_correction = DensityCorrection::None;
+        plain.water.density_correction = DensityCorrection::None;
         let initial = |scene: &Scene| -> InitialState { scene.initial_state().expect("a state") };
         let (corrected_state, plain_state) = (initial(&corrected), initial(&plain));
         assert_eq!(corrected_state.wall.len(), plain_state.wall.len());

@@ -1,21 +1,31 @@
-//! Checks what was written against the [schema]: every key is known, every
+//! Checks what was written against the [schema](super::schema): every key is known, every
 //! value has its key's type and range. All mistakes are collected.
 
+use super::builder::Here;
 use super::error::{Problem, ProblemKind};
+use super::model::Model;
 use super::nearest::nearest;
-use super::schema::{self, Key, Kind, Range, Section, listed, quoted};
+use super::region_keys::REGION;
+use super::schema::{Family, Form, Key, Kind, Range, Section, listed, quoted};
 use super::spec::{Node, SceneSpec, Span, Table, Value};
+use super::types::TOP;
 use super::values::number;
-use super::words::Dimension;
+use super::words::{Dimension, Word};
 
 /// Every mistake that can be seen in one value alone.
 pub(super) fn check(spec: &SceneSpec) -> Vec<Problem> {
+    check_as(spec, TOP)
+}
+
+/// As [`check`], for a top level that has the keys of this section.
+pub(super) fn check_as(spec: &SceneSpec, top: &'static Section) -> Vec<Problem> {
     let mut checker = Checker {
         spec,
         dimension: dimension(&spec.root),
+        family: family(&spec.root),
         problems: Vec::new(),
     };
-    checker.table(&spec.root, Section::Top);
+    checker.table(&spec.root, top);
     checker.problems
 }
 
@@ -28,28 +38,45 @@ pub(super) fn dimension(root: &Table) -> Option<Dimension> {
     }
 }
 
+/// The keys that the model of a scene has; `None` when the model is written wrongly.
+pub(super) fn family(root: &Table) -> Option<Family> {
+    let model: Option<Model> = match root.get("model").map(|entry| &entry.node.value) {
+        None => Here::top(root, TOP).default_word("model"),
+        Some(Value::Text(word)) => Model::from_word(word),
+        Some(_) => None,
+    };
+    model.map(Model::family)
+}
+
 /// The mistake of a key that does not exist.
-pub(super) fn unknown_key(spec: &SceneSpec, section: Section, name: &str, span: Span) -> Problem {
+pub(super) fn unknown_key(
+    spec: &SceneSpec,
+    section: &'static Section,
+    name: &str,
+    span: Span,
+) -> Problem {
     let dimension = dimension(&spec.root);
-    let here: Vec<&str> = schema::keys(section)
-        .filter(|key| key.only.is_none() || key.only == dimension)
+    let here: Vec<&str> = section
+        .keys
+        .iter()
+        .filter(|key| key.exists_in(dimension))
         .map(|key| key.name)
         .collect();
     let help = if let Some(meant) = nearest(name, here.iter().copied()) {
         vec![format!("did you mean `{meant}`?")]
-    } else if let Some(key) = schema::KEYS.iter().find(|key| key.name == name) {
-        vec![format!("`{name}` is a key of {}", key.section.title())]
+    } else if let Some(owner) = TOP.find_below(name) {
+        vec![format!("`{name}` is a key of {}", owner.title)]
     } else {
         let all: Vec<String> = here.iter().map(|name| format!("`{name}`")).collect();
         vec![format!(
             "the keys of {} are {}",
-            section.title(),
+            section.title,
             listed(&all, "and")
         )]
     };
-    let message = match section {
-        Section::Top => format!("unknown key `{name}`"),
-        _ => format!("unknown key `{name}` in {}", section.title()),
+    let message = match section.form {
+        Form::File => format!("unknown key `{name}`"),
+        _ => format!("unknown key `{name}` in {}", section.title),
     };
     spec.problem(ProblemKind::UnknownKey, message, span, help)
 }
@@ -57,6 +84,7 @@ pub(super) fn unknown_key(spec: &SceneSpec, section: Section, name: &str, span: 
 struct Checker<'a> {
     spec: &'a SceneSpec,
     dimension: Option<Dimension>,
+    family: Option<Family>,
     problems: Vec<Problem>,
 }
 
@@ -66,9 +94,9 @@ impl Checker<'_> {
             .push(self.spec.problem(kind, message, span, help));
     }
 
-    fn table(&mut self, table: &Table, section: Section) {
+    fn table(&mut self, table: &Table, section: &'static Section) {
         for entry in &table.entries {
-            let Some(key) = schema::find(section, &entry.name) else {
+            let Some(key) = section.key(&entry.name) else {
                 self.problems
                     .push(unknown_key(self.spec, section, &entry.name, entry.key));
                 continue;
@@ -76,20 +104,41 @@ impl Checker<'_> {
             if let (Some(only), Some(dimension)) = (key.only, self.dimension)
                 && only != dimension
             {
-                self.wrong_dimension(key, dimension, entry.key);
+                self.wrong_dimension(section, key, dimension, entry.key);
+                continue;
+            }
+            if let (Some(owner), Some(family)) = (key.family, self.family)
+                && owner != family
+            {
+                self.wrong_model(key, owner, entry.key);
                 continue;
             }
             self.value(key, &entry.node);
         }
     }
 
-    fn wrong_dimension(&mut self, key: &Key, dimension: Dimension, span: Span) {
+    fn wrong_model(&mut self, key: &Key, owner: Family, span: Span) {
+        let models = quoted(&Model::words_of(owner), "or");
+        let message = format!("`{}` is a key of another model", key.name);
+        let help = vec![format!("remove it, or set `model` to {models}")];
+        self.report(ProblemKind::Conflict, message, span, help);
+    }
+
+    fn wrong_dimension(
+        &mut self,
+        section: &'static Section,
+        key: &Key,
+        dimension: Dimension,
+        span: Span,
+    ) {
         let message = format!(
             "`{}` does not exist in {} dimensions",
             key.name,
             dimension.axes()
         );
-        let twin = schema::keys(key.section)
+        let twin = section
+            .keys
+            .iter()
             .find(|other| other.kind == key.kind && other.only == Some(dimension));
         let help = match twin {
             Some(twin) => format!(
@@ -118,7 +167,7 @@ impl Checker<'_> {
             (Kind::Vector, Value::List(list)) => self.vector(key, list, node.span),
             (Kind::Rotation, _) => self.rotation(key, node),
             (Kind::Matrix, Value::List(rows)) => self.matrix(key, rows, node.span),
-            (Kind::Points, Value::List(points)) => self.points(key, points, node.span),
+            (Kind::Corners, Value::List(points)) => self.points(key, points, node.span),
             (Kind::Table(section), Value::Table(table)) => self.table(table, section),
             (Kind::Tables(section), Value::List(list)) => {
                 for element in list {
@@ -164,26 +213,9 @@ impl Checker<'_> {
                 in_unit(&format!("{axes} rows of {axes} numbers"), key),
                 Vec::new(),
             ),
-            Kind::Points => (in_unit("a list of points", key), Vec::new()),
-            Kind::Table(inner) => (
-                "a table".to_owned(),
-                match (&node.value, inner) {
-                    (
-                        Value::List(_),
-                        Section::Fluid | Section::Gravity | Section::Wall | Section::Output,
-                    ) => {
-                        vec![format!("write {} in single brackets", inner.title())]
-                    }
-                    _ => {
-                        let names: Vec<String> = schema::keys(inner)
-                            .filter(|key| key.only.is_none() || key.only == self.dimension)
-                            .map(|key| format!("`{}`", key.name))
-                            .collect();
-                        vec![format!("its keys are {}", listed(&names, "and"))]
-                    }
-                },
-            ),
-            Kind::Tables(Section::Region) => (
+            Kind::Corners => (in_unit("a list of points", key), Vec::new()),
+            Kind::Table(inner) => ("a table".to_owned(), self.table_help(node, inner)),
+            Kind::Tables(inner) if *inner == REGION => (
                 "an array of tables".to_owned(),
                 vec!["write `[[region]]` in double brackets, once for each region".to_owned()],
             ),
@@ -192,6 +224,20 @@ impl Checker<'_> {
                 vec![format!("write `{} = [{{ … }}, {{ … }}]`", key.name)],
             ),
         }
+    }
+
+    /// What to tell someone who wrote something else than a table.
+    fn table_help(&self, node: &Node, inner: &Section) -> Vec<String> {
+        if inner.form == Form::Header && matches!(node.value, Value::List(_)) {
+            return vec![format!("write {} in single brackets", inner.title)];
+        }
+        let names: Vec<String> = inner
+            .keys
+            .iter()
+            .filter(|key| key.exists_in(self.dimension))
+            .map(|key| format!("`{}`", key.name))
+            .collect();
+        vec![format!("its keys are {}", listed(&names, "and"))]
     }
 
     fn choice(&mut self, key: &Key, words: &[&str], word: &str, span: Span) {

@@ -9,8 +9,9 @@ use toml_edit::Document;
 
 use super::check::unknown_key;
 use super::error::{Problem, ProblemKind};
-use super::schema::{self, Kind, Section};
+use super::schema::Kind;
 use super::spec::{self, Entry, Node, SceneSpec, Span, Table, Value};
+use super::types::TOP;
 
 /// The most steps of a path, far beyond any that leads somewhere: the depth of tables
 /// stays bounded whatever is typed.
@@ -255,14 +256,14 @@ fn change_inside(
 
 /// A removal of nothing is right only when the key exists in the language.
 fn check_path(spec: &SceneSpec, path: &[Segment]) -> Result<(), Box<Problem>> {
-    let mut section = Section::Top;
+    let mut section = TOP;
     let mut in_list = false;
     for segment in path {
         if in_list && segment.name.parse::<usize>().is_ok() {
             in_list = false;
             continue;
         }
-        match schema::find(section, segment.name).map(|key| key.kind) {
+        match section.key(segment.name).map(|key| key.kind) {
             Some(Kind::Table(inner)) => section = inner,
             Some(Kind::Tables(inner)) => {
                 section = inner;
