@@ -1,11 +1,11 @@
 //! Neighbours of every particle, their densities and the vectors g_ab = m W'(r_ab) e_ab.
 
-use super::Settings;
+use super::settings::Settings;
 use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::neighbours::{Cells, CellsView, Grid};
 use rayon::prelude::*;
 
-/// Particles in each piece of work.
+/// Particles in each part of the work that one thread takes at a time.
 pub(super) const GRAIN: usize = 512;
 
 /// Units in a support radius: the cells of the core count in whole units.
