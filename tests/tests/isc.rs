@@ -1,7 +1,7 @@
 //! The initial state correction: every first density is the reference density, without constants.
 
 use loschmidt_core::kernel::WendlandC2;
-use loschmidt_runner::isc::{Report, Settings, correct};
+use loschmidt_runner::isc::{Convergence, Settings, correct};
 use loschmidt_runner::scene::{DensityCorrection, InitialState, Scene};
 use loschmidt_runner::{Options, Player};
 use loschmidt_tests::permitted;
@@ -23,7 +23,7 @@ fn square(side: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn corrected(side: usize) -> (Vec<[f64; 2]>, Report) {
+fn corrected(side: usize) -> (Vec<[f64; 2]>, Convergence) {
     let mut fluid = square(side);
     let report = correct(&mut fluid, &settings::<2>(), |_, _| {}).expect("it converges");
     (fluid, report)

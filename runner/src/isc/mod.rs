@@ -21,12 +21,12 @@
 //! A lattice is too symmetric (D Dᵀ is singular for the mode that alternates from node to node), so
 //! the positions are first disturbed by up to a tenth of a spacing, from a seeded generator.
 //!
-//! What comes out has the same bits on every machine and for every number of threads: `+ - * / sqrt`
-//! in a written order, neighbours in an order that follows from the positions, and inner products
-//! in blocks of a fixed length.
+//! What comes out has the same bits on every machine and for every number of threads:
+//! `+ - * / sqrt` in a written order, neighbours in an order that follows from the positions, and
+//! inner products in blocks of a fixed length.
 //!
-//! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, section 3.2, where the solution
-//! of the Schur complement without a matrix is named as a future possibility.
+//! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, section 3.2, where the
+//! solution of the Schur complement without a matrix is named as a future possibility.
 
 mod pairs;
 mod settings;
@@ -55,7 +55,7 @@ pub struct Step {
 
 /// What a correction did.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct Convergence {
     /// The Newton steps.
     pub steps: Vec<Step>,
     /// Largest |ρ - ρ0|/ρ0 at the end.
@@ -89,7 +89,7 @@ pub fn correct<const D: usize>(
     fluid: &mut [[f64; D]],
     settings: &Settings,
     mut observe: impl FnMut(&[[f64; D]], &[f64]),
-) -> Result<Report, NotConverged> {
+) -> Result<Convergence, NotConverged> {
     let home = fluid.to_vec();
     let rho0 = settings.reference_density;
     let mut random = SplitMix64::new(settings.seed);
@@ -109,7 +109,7 @@ pub fn correct<const D: usize>(
         let error = largest(missing.par_iter().map(|f| f.abs())) / rho0;
         if error <= settings.tolerance {
             let displacement = largest(fluid.par_iter().zip(&home).map(|(a, b)| distance(a, b)));
-            return Ok(Report {
+            return Ok(Convergence {
                 steps,
                 error,
                 displacement,

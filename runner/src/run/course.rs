@@ -166,7 +166,8 @@ impl Run {
         }
     }
 
-    /// The rows that the earlier part must have left: a series that was tampered with is found here.
+    /// The rows that the earlier part must have left: a series that was tampered with is found
+    /// here.
     fn check_rows(&self, path: &Path) -> Result<(), RunError> {
         let step = self.player.steps_taken();
         let due = (0..=step).filter(|&s| self.plan.due(s).row);
@@ -215,8 +216,8 @@ impl Run {
         &self.plan
     }
 
-    /// Takes the run to its end. `observe` is called several times a second; when `stop` becomes true,
-    /// the run leaves a snapshot and returns [`RunError::Interrupted`].
+    /// Takes the run to its end. `observe` is called several times a second; when `stop` becomes
+    /// true, the run leaves a snapshot and returns [`RunError::Interrupted`].
     ///
     /// # Errors
     /// [`RunError`].

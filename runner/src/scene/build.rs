@@ -6,9 +6,9 @@ use super::declare::Keys;
 use super::error::SceneError;
 use super::model::Model;
 use super::regions::require_fluid;
-use super::schema::Kind;
+use super::schema::ValueType;
 use super::source::is_name_character;
-use super::spec::{SceneSpec, Value};
+use super::spec::{SceneSpec, WrittenValue};
 use super::types::{Scene, TOP, whole_steps};
 use super::wcsph::WallModel;
 use super::words::{Dimension, RegionKind};
@@ -27,7 +27,7 @@ pub(super) fn build(spec: &SceneSpec) -> Result<Scene, SceneError> {
     name(&mut builder, top, &mut scene, &spec.stem);
     wall(&mut builder, top, &scene);
     times(&mut builder, top, &scene);
-    refusals(&mut builder, top, scene.model);
+    exclusions(&mut builder, top, scene.model);
     builder.finish(scene)
 }
 
@@ -74,22 +74,24 @@ fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
 }
 
 /// Reports the keys that the model does not go with.
-fn refusals<'a>(builder: &mut Builder<'a>, top: Here<'a>, model: Model) {
-    for refusal in model.refusals() {
-        let Some(entry) = top.table.get(refusal.key) else {
+fn exclusions<'a>(builder: &mut Builder<'a>, top: Here<'a>, model: Model) {
+    for exclusion in model.exclusions() {
+        let Some(entry) = top.table.get(exclusion.key) else {
             continue;
         };
-        let (what, span) = match (refusal.unless, &entry.node.value) {
-            (None, _) => (format!("`{}`", refusal.key), entry.key),
-            (Some(unless), Value::Text(word)) if is_choice(refusal.key, word) && word != unless => {
-                (format!("`{} = \"{word}\"`", refusal.key), entry.node.span)
+        let (what, span) = match (exclusion.unless, &entry.node.value) {
+            (None, _) => (format!("`{}`", exclusion.key), entry.key),
+            (Some(unless), WrittenValue::Text(word))
+                if is_choice(exclusion.key, word) && word != unless =>
+            {
+                (format!("`{} = \"{word}\"`", exclusion.key), entry.node.span)
             }
             _ => continue,
         };
         builder.conflict(
             format!("{what} does not go with `model = \"{}\"`", model.word()),
             span,
-            refusal.help.to_owned(),
+            exclusion.help.to_owned(),
         );
     }
 }
@@ -97,7 +99,7 @@ fn refusals<'a>(builder: &mut Builder<'a>, top: Here<'a>, model: Model) {
 /// Whether a word is one of those that a key of the top level allows.
 fn is_choice(key: &str, word: &str) -> bool {
     let kind = TOP.key(key).map(|key| key.kind);
-    matches!(kind, Some(Kind::Choice(words)) if words.contains(&word))
+    matches!(kind, Some(ValueType::Choice(words)) if words.contains(&word))
 }
 
 /// Turnaround, end and time step must give a number of steps that can be run.

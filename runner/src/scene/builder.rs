@@ -5,23 +5,23 @@
 
 use super::error::{Problem, ProblemKind, Problems, SceneError};
 use super::nearest::nearest;
-use super::schema::{Default, Family, Form, Key, Kind, Section};
-use super::spec::{Entry, SceneSpec, Span, Table, Value};
+use super::schema::{Family, Form, IfAbsent, SceneKey, TableRules, ValueType};
+use super::spec::{Entry, SceneSpec, Span, WrittenTable, WrittenValue};
 use super::values::{as_table, finite, numbers};
-use super::words::{Dimension, Word};
+use super::words::{ChoiceWord, Dimension};
 
 /// Stands in for a table that is not in the file: all its keys have their defaults.
-const EMPTY_TABLE: &Table = &Table {
+const EMPTY_TABLE: &WrittenTable = &WrittenTable {
     entries: Vec::new(),
 };
 
 /// A table and where messages about what it lacks point to.
 #[derive(Clone, Copy)]
 pub(super) struct Here<'a> {
-    pub table: &'a Table,
+    pub table: &'a WrittenTable,
     /// `None` is the top level of the file.
     pub span: Option<Span>,
-    pub section: &'static Section,
+    pub rules: &'static TableRules,
     /// The key that holds the table.
     pub name: &'a str,
     /// Whether the file lacks the table; then nothing is missed in it.
@@ -30,33 +30,38 @@ pub(super) struct Here<'a> {
 
 impl<'a> Here<'a> {
     /// The top level of the file.
-    pub fn top(table: &'a Table, section: &'static Section) -> Self {
+    pub fn top(table: &'a WrittenTable, rules: &'static TableRules) -> Self {
         Self {
             table,
             span: None,
-            section,
+            rules,
             name: "",
             is_absent: false,
         }
     }
 
     /// A table of the file, at `span`.
-    pub fn table(table: &'a Table, span: Span, section: &'static Section, name: &'a str) -> Self {
+    pub fn table(
+        table: &'a WrittenTable,
+        span: Span,
+        rules: &'static TableRules,
+        name: &'a str,
+    ) -> Self {
         Self {
             table,
             span: Some(span),
-            section,
+            rules,
             name,
             is_absent: false,
         }
     }
 
     /// A table that is not in the file.
-    pub fn absent(section: &'static Section, name: &'a str) -> Self {
+    pub fn absent(rules: &'static TableRules, name: &'a str) -> Self {
         Self {
             table: EMPTY_TABLE,
             span: None,
-            section,
+            rules,
             name,
             is_absent: true,
         }
@@ -64,24 +69,24 @@ impl<'a> Here<'a> {
 
     /// How a message names the table.
     fn title(&self) -> String {
-        match self.section.form {
-            Form::Value => format!("`{}`", self.name),
-            _ => self.section.title.to_owned(),
+        match self.rules.form {
+            Form::UnderKey => format!("`{}`", self.name),
+            _ => self.rules.title.to_owned(),
         }
     }
 
     /// Whether a key that does not exist was most likely meant to be `name`.
     fn misspells(&self, name: &str) -> bool {
-        let names = || self.section.keys.iter().map(|key| key.name);
+        let names = || self.rules.keys.iter().map(|key| key.name);
         self.table.entries.iter().any(|entry| {
             names().all(|known| known != entry.name) && nearest(&entry.name, names()) == Some(name)
         })
     }
 
     /// The value that the key `name` has where it is absent, if it is a word.
-    pub fn default_word<W: Word>(&self, name: &str) -> Option<W> {
-        match self.section.key(name)?.default {
-            Default::Word(word) => W::from_word(word),
+    pub fn default_word<W: ChoiceWord>(&self, name: &str) -> Option<W> {
+        match self.rules.key(name)?.default {
+            IfAbsent::Word(word) => W::from_word(word),
             _ => None,
         }
     }
@@ -155,8 +160,9 @@ impl<'a> Builder<'a> {
         if entry.is_some() || here.is_absent {
             return entry;
         }
-        let key = here.section.key(name)?;
-        if !matches!(key.kind, Kind::Table(_) | Kind::Tables(_)) || here.section.form != Form::File
+        let key = here.rules.key(name)?;
+        if !matches!(key.kind, ValueType::Table(_) | ValueType::Tables(_))
+            || here.rules.form != Form::File
         {
             self.require(here, key);
         }
@@ -165,8 +171,8 @@ impl<'a> Builder<'a> {
 
     /// Reports the tables that the file needs and lacks.
     pub fn require_tables(&mut self, top: Here<'a>) {
-        for key in top.section.keys {
-            if matches!(key.kind, Kind::Table(_) | Kind::Tables(_))
+        for key in top.rules.keys {
+            if matches!(key.kind, ValueType::Table(_) | ValueType::Tables(_))
                 && top.table.get(key.name).is_none()
             {
                 self.require(top, key);
@@ -175,28 +181,28 @@ impl<'a> Builder<'a> {
     }
 
     /// Reports that a key is missing, if it is required.
-    fn require(&mut self, here: Here<'a>, key: &'static Key) {
+    fn require(&mut self, here: Here<'a>, key: &'static SceneKey) {
         let name = key.name;
         // One message for one mistake: the misspelt key is reported already.
-        if key.default != Default::Required || !self.has(key) || here.misspells(name) {
+        if key.default != IfAbsent::Required || !self.has(key) || here.misspells(name) {
             return;
         }
-        let message = match (here.section.form, key.kind) {
-            (Form::File, Kind::Table(inner) | Kind::Tables(inner)) => {
+        let message = match (here.rules.form, key.kind) {
+            (Form::File, ValueType::Table(inner) | ValueType::Tables(inner)) => {
                 format!("{} is missing", inner.title)
             }
             (Form::File, _) => format!("`{name}` is missing"),
             _ => format!("{} needs `{name}`", here.title()),
         };
         let help = match key.kind {
-            Kind::Table(_) | Kind::Tables(_) => format!("it says {}", key.meaning),
+            ValueType::Table(_) | ValueType::Tables(_) => format!("it says {}", key.meaning),
             _ => format!("`{name}` ({}): {}", key.unit_label(), key.meaning),
         };
         self.missing(here, message, vec![help]);
     }
 
     /// Whether the scene's model has the key; a refused model has every key.
-    fn has(&self, key: &Key) -> bool {
+    fn has(&self, key: &SceneKey) -> bool {
         match (key.family, self.family) {
             (Some(owner), Some(family)) => owner == family,
             _ => true,
@@ -207,8 +213,8 @@ impl<'a> Builder<'a> {
     pub fn number(&mut self, here: Here<'a>, name: &str) -> f64 {
         match self.entry(here, name) {
             Some(entry) => accepted(here, entry),
-            None => match here.section.key(name).map(|key| key.default) {
-                Some(Default::Number(x)) => x,
+            None => match here.rules.key(name).map(|key| key.default) {
+                Some(IfAbsent::Number(x)) => x,
                 _ => f64::NAN,
             },
         }
@@ -228,13 +234,13 @@ impl<'a> Builder<'a> {
     /// A text; `None` when it was refused or is absent.
     pub fn text(&mut self, here: Here<'a>, name: &str) -> Option<&'a str> {
         match &self.entry(here, name)?.node.value {
-            Value::Text(text) => Some(text),
+            WrittenValue::Text(text) => Some(text),
             _ => None,
         }
     }
 
     /// A word; `None` when it was refused or is absent without a default.
-    pub fn word<W: Word>(&mut self, here: Here<'a>, name: &str) -> Option<W> {
+    pub fn word<W: ChoiceWord>(&mut self, here: Here<'a>, name: &str) -> Option<W> {
         if here.table.get(name).is_some() {
             return W::from_word(self.text(here, name)?);
         }
@@ -250,17 +256,17 @@ impl<'a> Builder<'a> {
         &mut self,
         here: Here<'a>,
         name: &str,
-        section: &'static Section,
+        rules: &'static TableRules,
     ) -> Option<Here<'a>> {
         let entry = self.entry(here, name)?;
         let table = as_table(&entry.node)?;
-        Some(Here::table(table, entry.node.span, section, &entry.name))
+        Some(Here::table(table, entry.node.span, rules, &entry.name))
     }
 }
 
 /// The number of an entry, or NaN when it is refused.
 fn accepted(here: Here, entry: &Entry) -> f64 {
-    let range = here.section.key(&entry.name).map(|key| key.range);
+    let range = here.rules.key(&entry.name).map(|key| key.range);
     finite(&entry.node)
         .filter(|&x| range.is_none_or(|range| range.contains(x)))
         .unwrap_or(f64::NAN)

@@ -15,9 +15,10 @@
 //!
 //! Each says: name, type, default, range, meaning and, where there is one, the unit. From it follow
 //! a field of the struct with its documentation, the key in the schema, reading the field from what
-//! was written, and printing it with its comment. `of` names the models that have the keys, `ANY_MODEL`
-//! being all of them; the part from `table` on is left out for keys that stand in a table which
-//! another declaration names. That one takes them in, after the key that they follow, by a line
+//! was written, and printing it with its comment. `of` names the models that have the keys,
+//! `ANY_MODEL` being all of them; the part from `table` on is left out for keys that stand in a
+//! table which another declaration names. That one takes them in, after the key that they follow,
+//! by a line
 //! `..field: Type;`. A key is printed where it stands, or where `printed after "key"` says.
 //!
 //! What a type looks like in a scene file is said once by [`KeyValue`], for every key that has it.
@@ -25,12 +26,12 @@
 use super::builder::{Builder, Here};
 use super::geometry::Vector3;
 use super::page::{Page, number, text};
-use super::schema::{Family, Key, Kind, Section};
-use super::words::{Dimension, Word};
+use super::schema::{Family, SceneKey, TableRules, ValueType};
+use super::words::{ChoiceWord, Dimension};
 
 /// A type that the value of a key can have.
 pub(super) trait KeyValue: Sized {
-    const KIND: Kind;
+    const KIND: ValueType;
     /// The models that have keys of this type; `None` where all have them.
     const FAMILY: Option<Family> = None;
 
@@ -43,7 +44,7 @@ pub(super) trait KeyValue: Sized {
 
 /// Keys that stand beside each other in a table, and their values.
 pub(super) trait Keys: Sized {
-    const KEYS: &'static [Key];
+    const KEYS: &'static [SceneKey];
     const FAMILY: Option<Family>;
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Self;
@@ -54,7 +55,7 @@ pub(super) trait Keys: Sized {
 
 /// Keys that fill a table.
 pub(super) trait KeyTable: Keys + 'static {
-    const SECTION: &'static Section;
+    const RULES: &'static TableRules;
 }
 
 /// Declares keys; the head of this module says how.
@@ -84,9 +85,9 @@ macro_rules! keys {
             use $crate::scene::declare::parts::*;
 
             impl Keys for $name {
-                const KEYS: &'static [Key] = {
-                    const LISTS: &[&[Key]] = &[$(
-                        &[Key {
+                const KEYS: &'static [SceneKey] = {
+                    const LISTS: &[&[SceneKey]] = &[$(
+                        &[SceneKey {
                             name: stringify!($key),
                             kind: <$type as KeyValue>::KIND,
                             default: $default,
@@ -133,18 +134,18 @@ pub(super) use keys;
 /// Gives keys a table of their own, and makes them the value of the key that holds the table.
 macro_rules! table {
     ($name:ident, $form:ident, $title:literal) => {
-        static SECTION: Section = Section {
+        static RULES: TableRules = TableRules {
             title: $title,
             form: Form::$form,
             keys: <$name as Keys>::KEYS,
         };
 
         impl KeyTable for $name {
-            const SECTION: &'static Section = &SECTION;
+            const RULES: &'static TableRules = &RULES;
         }
 
         impl KeyValue for $name {
-            const KIND: Kind = Kind::Table(&SECTION);
+            const KIND: ValueType = ValueType::Table(&RULES);
             const FAMILY: Option<Family> = <$name as Keys>::FAMILY;
 
             fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
@@ -167,7 +168,7 @@ pub(super) mod parts {
     };
     pub(in crate::scene) use crate::scene::page::Page;
     pub(in crate::scene) use crate::scene::schema::{
-        Family, Form, Key, Kind, Section, count, join,
+        Family, Form, SceneKey, TableRules, ValueType, count, join,
     };
 }
 
@@ -185,13 +186,13 @@ pub(super) fn read_table<'a, T: KeyTable>(
     here: Here<'a>,
     name: &'static str,
 ) -> T {
-    let inner = builder.inner(here, name, T::SECTION);
-    T::read(builder, inner.unwrap_or(Here::absent(T::SECTION, name)))
+    let inner = builder.inner(here, name, T::RULES);
+    T::read(builder, inner.unwrap_or(Here::absent(T::RULES, name)))
 }
 
 /// Prints a table under its header.
 pub(super) fn print_table<T: KeyTable>(value: Option<&T>, page: &mut Page, name: &'static str) {
-    if page.open(name, T::SECTION, value.is_some()) {
+    if page.open(name, T::RULES, value.is_some()) {
         T::print(value, page);
         page.close();
     }
@@ -199,11 +200,11 @@ pub(super) fn print_table<T: KeyTable>(value: Option<&T>, page: &mut Page, name:
 
 /// A table that may be absent.
 impl<T: KeyTable> KeyValue for Option<T> {
-    const KIND: Kind = Kind::Table(T::SECTION);
+    const KIND: ValueType = ValueType::Table(T::RULES);
     const FAMILY: Option<Family> = T::FAMILY;
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
-        let inner = builder.inner(here, name, T::SECTION)?;
+        let inner = builder.inner(here, name, T::RULES)?;
         Some(T::read(builder, inner))
     }
 
@@ -213,8 +214,8 @@ impl<T: KeyTable> KeyValue for Option<T> {
 }
 
 /// A choice; a refused word stands for the default, about which no rule complains.
-impl<W: Word> KeyValue for W {
-    const KIND: Kind = Kind::Choice(W::WORDS);
+impl<W: ChoiceWord> KeyValue for W {
+    const KIND: ValueType = ValueType::Choice(W::WORDS);
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
         let word = builder.word(here, name);
@@ -227,7 +228,7 @@ impl<W: Word> KeyValue for W {
 }
 
 impl KeyValue for f64 {
-    const KIND: Kind = Kind::Number;
+    const KIND: ValueType = ValueType::Number;
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
         builder.number(here, name)
@@ -239,7 +240,7 @@ impl KeyValue for f64 {
 }
 
 impl KeyValue for Option<f64> {
-    const KIND: Kind = Kind::Number;
+    const KIND: ValueType = ValueType::Number;
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
         builder.optional_number(here, name)
@@ -252,7 +253,7 @@ impl KeyValue for Option<f64> {
 
 /// A whole number within the key's range; of a refused one nothing is used.
 impl KeyValue for u64 {
-    const KIND: Kind = Kind::Whole;
+    const KIND: ValueType = ValueType::Whole;
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
         builder.number(here, name) as u64
@@ -264,7 +265,7 @@ impl KeyValue for u64 {
 }
 
 impl KeyValue for Vector3 {
-    const KIND: Kind = Kind::Vector;
+    const KIND: ValueType = ValueType::Vector;
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
         builder.vector(here, name)
@@ -278,7 +279,7 @@ impl KeyValue for Vector3 {
 
 /// A text; an absent one is empty.
 impl KeyValue for String {
-    const KIND: Kind = Kind::Text;
+    const KIND: ValueType = ValueType::Text;
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
         builder.text(here, name).unwrap_or("").to_owned()
@@ -291,7 +292,7 @@ impl KeyValue for String {
 
 /// The number of dimensions, which is read before anything else.
 impl KeyValue for Dimension {
-    const KIND: Kind = Kind::Dimension;
+    const KIND: ValueType = ValueType::Dimension;
 
     fn read<'a>(builder: &mut Builder<'a>, _: Here<'a>, _: &'static str) -> Self {
         builder.dimension

@@ -3,8 +3,8 @@
 //! That is decided with `+ - * /` and comparisons alone, so that a scene has the same particles on
 //! every machine. Faces are half-open: a node on a lower face is inside, one on an upper face
 //! outside, and so shapes that share a face share no particle. A tolerance of 10⁻⁹ spacings absorbs
-//! the rounding of coordinates such as 49.5 * 0.02: a node counts as lying on a face when it is that
-//! near.
+//! the rounding of coordinates such as 49.5 * 0.02: a node counts as lying on a face when it is
+//! that near.
 
 use super::geometry::Vector3;
 use super::lattice::{Index, Lattice};
@@ -18,7 +18,7 @@ pub(super) fn visit(lattice: &Lattice, shape: &Shape, mut visitor: impl FnMut(Ve
     };
     let (low, high) = lattice.extent(bounds);
     let reaches = shape.reaches();
-    let grid = Grid {
+    let near = Neighbourhoods {
         lattice: *lattice,
         around: if lattice.kind == LatticeKind::Vogel {
             Around::Spiral(Spiral::new(lattice, high[0], &reaches))
@@ -32,7 +32,7 @@ pub(super) fn visit(lattice: &Lattice, shape: &Shape, mut visitor: impl FnMut(Ve
     for k in low[2]..high[2] {
         for j in low[1]..high[1] {
             for i in low[0]..high[0] {
-                if contains(shape, &grid, [i, j, k]) {
+                if contains(shape, &near, [i, j, k]) {
                     visitor(lattice.node([i, j, k]));
                 }
             }
@@ -40,9 +40,9 @@ pub(super) fn visit(lattice: &Lattice, shape: &Shape, mut visitor: impl FnMut(Ve
     }
 }
 
-/// Whether the node `index` of the grid's lattice belongs to the shape.
-fn contains(shape: &Shape, grid: &Grid, index: Index) -> bool {
-    let lattice = &grid.lattice;
+/// Whether the node `index` of the near's lattice belongs to the shape.
+fn contains(shape: &Shape, near: &Neighbourhoods, index: Index) -> bool {
+    let lattice = &near.lattice;
     let tolerance = TOLERANCE * lattice.spacing;
     let x = lattice.node(index);
     let axes = lattice.dimension().axes();
@@ -77,21 +77,21 @@ fn contains(shape: &Shape, grid: &Grid, index: Index) -> bool {
             outside_the_hole && limit > 0.0 && squared < limit * limit
         }
         Shape::Polygon { points } => inside_polygon(points, [x[0] + tolerance, x[1] + tolerance]),
-        Shape::Union(shapes) => shapes.iter().any(|shape| contains(shape, grid, index)),
+        Shape::Union(shapes) => shapes.iter().any(|shape| contains(shape, near, index)),
         Shape::Difference(shapes) => match shapes.split_first() {
             Some((first, others)) => {
-                contains(first, grid, index)
-                    && !others.iter().any(|shape| contains(shape, grid, index))
+                contains(first, near, index)
+                    && !others.iter().any(|shape| contains(shape, near, index))
             }
             None => false,
         },
         Shape::Intersection(shapes) => {
-            !shapes.is_empty() && shapes.iter().all(|shape| contains(shape, grid, index))
+            !shapes.is_empty() && shapes.iter().all(|shape| contains(shape, near, index))
         }
         Shape::Layer { around, depth } => {
-            !contains(around, grid, index)
-                && grid.any_neighbour(index, layer_reach(*depth), |neighbour| {
-                    contains(around, grid, neighbour)
+            !contains(around, near, index)
+                && near.any_neighbour(index, layer_reach(*depth), |neighbour| {
+                    contains(around, near, neighbour)
                 })
         }
     }
@@ -126,7 +126,7 @@ fn inside_polygon(points: &[[f64; 2]], p: [f64; 2]) -> bool {
 }
 
 /// A lattice with the neighbourhoods that the layers of a shape ask for.
-struct Grid {
+struct Neighbourhoods {
     lattice: Lattice,
     around: Around,
 }
@@ -139,7 +139,7 @@ enum Around {
     Spiral(Spiral),
 }
 
-impl Grid {
+impl Neighbourhoods {
     /// Whether `test` holds for a node within `reach` spacings of `index`.
     fn any_neighbour(&self, index: Index, reach: f64, test: impl Fn(Index) -> bool) -> bool {
         let stencils = match &self.around {

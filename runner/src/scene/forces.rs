@@ -3,15 +3,15 @@
 use super::declare::keys;
 use super::geometry::Vector3;
 use super::schema::ANY_MODEL;
-use super::schema::Default::{Absent, Number, Required};
+use super::schema::IfAbsent::{Number, Optional, Required};
 use super::schema::Range::{Any, AtLeast};
 
 keys! {
     /// Outside forces, per mass.
     #[derive(Copy)]
     Gravity of ANY_MODEL, table Header "`[gravity]`" {
-        uniform: Vector3 = Absent, Any, "the same acceleration everywhere", "m/s²";
-        central: Option<CentralGravity> = Absent, Any, "attraction to a point";
+        uniform: Vector3 = Optional, Any, "the same acceleration everywhere", "m/s²";
+        central: Option<CentralGravity> = Optional, Any, "attraction to a point";
     }
 }
 

@@ -1,15 +1,15 @@
 //! From a scene to its particles: lattice nodes inside the regions, with first velocities.
 //!
-//! Every fluid region has its own lattice, which starts half a pitch inside the lower
-//! corner of the region's bounds (a spiral: in their middle). Walls continue the lattice of the
-//! first fluid region. Particles are ordered region after region in file order, and in a region x fastest,
-//! then y, then z; that order gives the particles their ids. Where the scene asks for it, the
-//! fluid is then moved by the initial state correction (see [`isc`](crate::isc)), and has its first
+//! Every fluid region has its own lattice, which starts half a pitch inside the lower corner of the
+//! region's bounds (a spiral: in their middle). Walls continue the lattice of the first fluid
+//! region. Particles are ordered region after region in file order, and in a region x fastest, then
+//! y, then z; that order gives the particles their ids. Where the scene asks for it, the fluid is
+//! then moved by the initial state correction (see [`isc`](crate::isc)), and has its first
 //! velocities where it was moved to.
 
 use super::error::SceneError;
 use super::filling::visit;
-use super::geometry::{Bounds, Vector3, around_both, grown, overlap};
+use super::geometry::{AxisBox, Vector3, around_both, grown, overlap};
 use super::lattice::Lattice;
 use super::region::Region;
 use super::shape::Shape;
@@ -137,8 +137,8 @@ impl Scene {
     }
 
     /// The settings of the initial state correction of this scene. Spirals are not so symmetric
-    /// that they would have to be disturbed first, and are moved in short steps, which leave them in
-    /// order: on the Gresho vortex disorder is noise.
+    /// that they would have to be disturbed first, and are moved in short steps, which leave them
+    /// in order: on the Gresho vortex disorder is noise.
     #[must_use]
     pub fn correction(&self) -> isc::Settings {
         let settings = isc::Settings::new(
@@ -163,7 +163,7 @@ impl Scene {
 
     /// Moves the particles until their summed densities are the reference density: the fluid, and
     /// dummy walls with it, which belong to the density and whose outer face is a free surface too.
-    fn correct(&self, state: &mut InitialState) -> Result<isc::Report, SceneError> {
+    fn correct(&self, state: &mut InitialState) -> Result<isc::Convergence, SceneError> {
         match self.dimension {
             Dimension::Two => self.correct_in::<2>(state),
             Dimension::Three => self.correct_in::<3>(state),
@@ -173,7 +173,7 @@ impl Scene {
     fn correct_in<const D: usize>(
         &self,
         state: &mut InitialState,
-    ) -> Result<isc::Report, SceneError> {
+    ) -> Result<isc::Convergence, SceneError> {
         let first = |x: &Vector3| -> [f64; D] { std::array::from_fn(|d| x[d]) };
         let mut moved: Vec<[f64; D]> = state.fluid.iter().map(first).collect();
         // Other walls take no part in the density.
@@ -380,7 +380,7 @@ fn too_near(a: &[Vector3], b: &[Vector3], spacing: f64, axes: usize) -> Option<V
         .copied()
 }
 
-fn bounds(points: &[Vector3]) -> Option<Bounds> {
+fn bounds(points: &[Vector3]) -> Option<AxisBox> {
     points
         .iter()
         .map(|&point| (point, point))

@@ -8,7 +8,7 @@
 //! Vogel's spiral: node n at r = s ((n + 1/2)/π)^(1/2) and the n-th multiple of the golden angle
 //! 2π (1 - 1/φ), so that n nodes fill the area n s². (H. Vogel, Math. Biosci. 44 (1979) 179.)
 
-use super::geometry::{Bounds, Vector3};
+use super::geometry::{AxisBox, Vector3};
 use super::words::{Dimension, LatticeKind};
 use std::f64::consts::PI;
 
@@ -97,7 +97,7 @@ impl Lattice {
     }
 
     /// The number of nodes of a spiral that reaches every corner of a box.
-    fn spiral_nodes(&self, bounds: Bounds) -> f64 {
+    fn spiral_nodes(&self, bounds: AxisBox) -> f64 {
         let mut r2 = 0.0;
         for k in 0..2 {
             let far = (bounds.0[k] - self.origin[k])
@@ -120,7 +120,7 @@ impl Lattice {
     }
 
     /// The number of nodes in a box, for a decision whether to visit them.
-    pub fn nodes_within(&self, bounds: Bounds) -> f64 {
+    pub fn nodes_within(&self, bounds: AxisBox) -> f64 {
         if self.kind == LatticeKind::Vogel {
             return self.spiral_nodes(bounds);
         }
@@ -131,7 +131,7 @@ impl Lattice {
     }
 
     /// The lowest and one above the highest index of all nodes in a box and a few around it.
-    pub fn extent(&self, bounds: Bounds) -> (Index, Index) {
+    pub fn extent(&self, bounds: AxisBox) -> (Index, Index) {
         if self.kind == LatticeKind::Vogel {
             // The conversion saturates.
             return (

@@ -8,10 +8,10 @@
 
 use super::schema::Family;
 use super::wcsph;
-use super::words::{Word, words};
+use super::words::{ChoiceWord, words};
 
 /// A key that a model does not go with.
-pub(super) struct Refusal {
+pub(super) struct Exclusion {
     pub key: &'static str,
     /// The only word that the key may have; `None` where the key may not stand in the scene at all.
     pub unless: Option<&'static str>,
@@ -23,7 +23,7 @@ macro_rules! models {
     (
         $(
             $(#[$doc:meta])*
-            $variant:ident = $word:literal, $family:expr, $refusals:expr;
+            $variant:ident = $word:literal, $family:expr, $exclusions:expr;
         )+
     ) => {
         words! {
@@ -38,8 +38,8 @@ macro_rules! models {
             }
 
             /// What this model does not go with.
-            pub(super) const fn refusals(self) -> &'static [Refusal] {
-                match self { $(Self::$variant => $refusals,)+ }
+            pub(super) const fn exclusions(self) -> &'static [Exclusion] {
+                match self { $(Self::$variant => $exclusions,)+ }
             }
         }
     };
@@ -49,14 +49,14 @@ models! {
     /// Density by summation over the neighbours: Hamiltonian and reversible.
     Symplectic = "symplectic", wcsph::FAMILY, &[];
     /// Density advanced in time by the continuity equation: not reversible.
-    Standard = "standard", wcsph::FAMILY, &[Refusal {
+    Standard = "standard", wcsph::FAMILY, &[Exclusion {
         key: "integrator",
         unless: Some("stormer-verlet"),
         help: "the standard scheme has a kick, a drift and a kick of its own: \
                write `integrator = \"stormer-verlet\"`, or `model = \"symplectic\"`",
     }];
     /// The symplectic scheme with its noise filtered out every few steps: dissipative.
-    Filtered = "filtered", wcsph::FAMILY, &[Refusal {
+    Filtered = "filtered", wcsph::FAMILY, &[Exclusion {
         key: "turnaround",
         unless: None,
         help: "the filter takes noise and energy out of the flow, and nothing brings them back: \
@@ -82,7 +82,7 @@ mod tests {
     use crate::scene::check::check_as;
     use crate::scene::declare::{KeyTable, Keys, keys};
     use crate::scene::page::Page;
-    use crate::scene::schema::Default::{Absent, Required};
+    use crate::scene::schema::IfAbsent::{Optional, Required};
     use crate::scene::schema::Range::{Above, Any};
     use crate::scene::schema::{ANY_MODEL, Family};
     use crate::scene::source::SourceText;
@@ -102,7 +102,7 @@ mod tests {
     keys! {
         /// A top level that has them.
         Body of ANY_MODEL, table File "the top level" {
-            name: String = Absent, Any, "short name";
+            name: String = Optional, Any, "short name";
             solid: Solid = Required, Any, "what the solid is";
         }
     }
@@ -118,7 +118,7 @@ mod tests {
 
     fn read(text: &str, family: Family) -> Result<Body, String> {
         let spec = parse(text);
-        let top = Here::top(&spec.root, Body::SECTION);
+        let top = Here::top(&spec.root, Body::RULES);
         let mut builder = Builder::new(&spec, Dimension::Two, Some(family), Vec::new());
         builder.require_tables(top);
         let body = Body::read(&mut builder, top);
@@ -126,7 +126,7 @@ mod tests {
     }
 
     fn print(body: &Body, family: Family) -> String {
-        let mut page = Page::new(Body::SECTION, Dimension::Two, family, Vec::new());
+        let mut page = Page::new(Body::RULES, Dimension::Two, family, Vec::new());
         Body::print(Some(body), &mut page);
         page.finish()
     }
@@ -147,12 +147,12 @@ mod tests {
         let body = read("name = \"rod\"", wcsph::FAMILY).expect("a body");
         let printed = "name = \"rod\"  # text; short name\n";
         assert_eq!(print(&body, wcsph::FAMILY), printed);
-        let problems = check_as(&parse("solid.stiffness = 2e9"), Body::SECTION);
+        let problems = check_as(&parse("solid.stiffness = 2e9"), Body::RULES);
         let messages: Vec<&str> = problems.iter().map(|p| p.message.as_str()).collect();
         assert_eq!(messages, ["`solid` is a key of another model"]);
         let problems = check_as(
             &parse("model = \"foo\"\nsolid.stiffness = 2e9"),
-            Body::SECTION,
+            Body::RULES,
         );
         assert_eq!(problems.len(), 1, "the model alone is unknown here");
     }

@@ -1,11 +1,11 @@
 //! A page of an annotated scene file: keys under headers, with their comments in a column.
 
 use super::geometry::Vector3;
-use super::schema::{Family, Form, Key, Section};
+use super::schema::{Family, Form, SceneKey, TableRules};
 use super::words::Dimension;
 
 /// One line: the code and its comment.
-struct Line {
+struct PageLine {
     code: String,
     comment: String,
     /// The key, on a line of a table that stands under its own header.
@@ -20,14 +20,14 @@ pub(super) struct Page {
     /// The values of keys of the top level that follow from other keys where they are absent.
     follows: Vec<(&'static str, f64)>,
     /// The tables that are open, the file first, with the keys that hold them.
-    open: Vec<(&'static str, &'static Section)>,
-    lines: Vec<Line>,
+    open: Vec<(&'static str, &'static TableRules)>,
+    lines: Vec<PageLine>,
 }
 
 impl Page {
-    /// An empty page whose file is of this section.
+    /// An empty page of a file with these rules.
     pub fn new(
-        section: &'static Section,
+        rules: &'static TableRules,
         dimension: Dimension,
         family: Family,
         follows: Vec<(&'static str, f64)>,
@@ -36,14 +36,14 @@ impl Page {
             dimension,
             family,
             follows,
-            open: vec![("", section)],
+            open: vec![("", rules)],
             lines: Vec::new(),
         }
     }
 
     /// A line as it stands.
     pub fn line(&mut self, code: String, comment: String) {
-        self.lines.push(Line {
+        self.lines.push(PageLine {
             code,
             comment,
             key: "",
@@ -62,11 +62,11 @@ impl Page {
     }
 
     /// Opens the table `name` under its header; false if the model does not have it.
-    pub fn open(&mut self, name: &'static str, section: &'static Section, is_set: bool) -> bool {
+    pub fn open(&mut self, name: &'static str, rules: &'static TableRules, is_set: bool) -> bool {
         if self.key(name).is_some_and(|key| !self.has(key)) {
             return false;
         }
-        self.open.push((name, section));
+        self.open.push((name, rules));
         let names: Vec<&str> = self.open.iter().skip(1).map(|(name, _)| *name).collect();
         self.header(&format!("[{}]", names.join(".")), is_set);
         true
@@ -91,7 +91,7 @@ impl Page {
         };
         let before = key.printed_after;
         let place = before.and_then(|before| self.lines.iter().rposition(|l| l.key == before));
-        let line = Line {
+        let line = PageLine {
             code,
             comment: comment(key),
             key: name,
@@ -100,8 +100,8 @@ impl Page {
             .insert(place.map_or(self.lines.len(), |place| place + 1), line);
     }
 
-    /// A key of any section under the dotted `path` that it has in the open table.
-    pub fn value_at(&mut self, key: &Key, path: &str, value: Option<String>) {
+    /// A key of any table under the dotted `path` that it has in the open table.
+    pub fn value_at(&mut self, key: &SceneKey, path: &str, value: Option<String>) {
         let code = match value {
             Some(value) => format!("{path} = {value}"),
             None => format!("# {path} = …"),
@@ -114,18 +114,18 @@ impl Page {
         list(&vector[..self.dimension.axes()])
     }
 
-    fn key(&self, name: &str) -> Option<&'static Key> {
-        self.open.last().and_then(|(_, section)| section.key(name))
+    fn key(&self, name: &str) -> Option<&'static SceneKey> {
+        self.open.last().and_then(|(_, rules)| rules.key(name))
     }
 
-    fn has(&self, key: &Key) -> bool {
+    fn has(&self, key: &SceneKey) -> bool {
         key.family.is_none_or(|family| family == self.family)
     }
 
     fn is_at_the_top(&self) -> bool {
         self.open
             .last()
-            .is_some_and(|(_, section)| section.form == Form::File)
+            .is_some_and(|(_, rules)| rules.form == Form::File)
     }
 
     /// Joins the lines, with the comments of neighbouring lines in one column.
@@ -159,7 +159,7 @@ impl Page {
 }
 
 /// Unit and meaning of a key.
-pub(super) fn comment(key: &Key) -> String {
+pub(super) fn comment(key: &SceneKey) -> String {
     format!("{}; {}", key.unit_label(), key.meaning)
 }
 

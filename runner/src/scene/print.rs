@@ -4,7 +4,7 @@ use super::geometry::Vector3;
 use super::page::{Page, comment, list, number, text};
 use super::region::{Region, Velocity};
 use super::region_keys::{BALL, BLOCK, ELLIPSOID, LAYER, POLYGON, REGION, SHAPE, SHELL, VELOCITY};
-use super::schema::Section;
+use super::schema::TableRules;
 use super::shape::Shape;
 use super::words::{Dimension, RegionKind};
 
@@ -24,15 +24,15 @@ pub(super) fn print_region(page: &mut Page, region: &Region) {
     }
 }
 
-/// Prints the key `name` of a section under the path that it has in the region.
+/// Prints the key `name` of these rules under the path that it has in the region.
 fn print_at(
     page: &mut Page,
-    section: &'static Section,
+    rules: &'static TableRules,
     name: &str,
     path: &str,
     value: Option<String>,
 ) {
-    if let Some(key) = section.key(name) {
+    if let Some(key) = rules.key(name) {
         page.value_at(key, path, value);
     }
 }
@@ -89,9 +89,9 @@ fn print_shape(page: &mut Page, path: &str, shape: &Shape) {
     let dimension = page.dimension;
     let word = shape.word(dimension);
     let path = format!("{path}.{word}");
-    if let Some((section, pairs)) = numbers(shape, dimension.axes()) {
+    if let Some((rules, pairs)) = numbers(shape, dimension.axes()) {
         for (name, value) in pairs {
-            print_at(page, section, name, &format!("{path}.{name}"), Some(value));
+            print_at(page, rules, name, &format!("{path}.{name}"), Some(value));
         }
     }
     match shape {
@@ -114,7 +114,7 @@ fn print_shape(page: &mut Page, path: &str, shape: &Shape) {
 }
 
 /// The keys and values of a shape that is described by numbers alone.
-fn numbers(shape: &Shape, axes: usize) -> Option<(&'static Section, Vec<NamedValue>)> {
+fn numbers(shape: &Shape, axes: usize) -> Option<(&'static TableRules, Vec<NamedValue>)> {
     let point = |point: &Vector3| list(&point[..axes]);
     Some(match shape {
         Shape::Block { min, max } => (&BLOCK, vec![("min", point(min)), ("max", point(max))]),

@@ -1,19 +1,19 @@
 //! The keys of regions, velocities and shapes. Their values are read by hand (see
 //! [`regions`](super::regions)), since several of them exclude each other. A shape holds shapes, so
-//! these sections refer to each other.
+//! the rules of these tables refer to each other.
 
-use super::schema::Kind::{Choice, Matrix, Number, Rotation, Table, Tables, Vector};
 use super::schema::Range::{Above, AboveUpTo, AtLeast};
-use super::schema::{Form, Key, Kind, Section, key};
+use super::schema::ValueType::{Choice, Matrix, Number, Rotation, Table, Tables, Vector};
+use super::schema::{Form, SceneKey, TableRules, ValueType, key};
 use super::words::Dimension::{Three, Two};
 use super::words::{LatticeKind, RegionKind};
 
 /// The key of the top level that holds the regions.
-pub(super) const REGIONS: Key = key("region", Tables(&REGION))
+pub(super) const REGIONS: SceneKey = key("region", Tables(&REGION))
     .required()
     .means("what is filled with particles, in the order of their ids");
 
-pub(super) static REGION: Section = Section {
+pub(super) static REGION: TableRules = TableRules {
     title: "`[[region]]`",
     form: Form::Other,
     keys: &[
@@ -30,7 +30,7 @@ pub(super) static REGION: Section = Section {
     ],
 };
 
-pub(super) static VELOCITY: Section = Section {
+pub(super) static VELOCITY: TableRules = TableRules {
     title: "a `velocity`",
     form: Form::Other,
     keys: &[
@@ -66,7 +66,7 @@ pub(super) static VELOCITY: Section = Section {
     ],
 };
 
-pub(super) static SHAPE: Section = Section {
+pub(super) static SHAPE: TableRules = TableRules {
     title: "a shape",
     form: Form::Other,
     keys: &[
@@ -100,9 +100,9 @@ pub(super) static SHAPE: Section = Section {
     ],
 };
 
-pub(super) static BLOCK: Section = Section {
+pub(super) static BLOCK: TableRules = TableRules {
     title: "a `rectangle` or `box`",
-    form: Form::Value,
+    form: Form::UnderKey,
     keys: &[
         key("min", Vector)
             .unit("m")
@@ -115,9 +115,9 @@ pub(super) static BLOCK: Section = Section {
     ],
 };
 
-pub(super) static BALL: Section = Section {
+pub(super) static BALL: TableRules = TableRules {
     title: "a `circle` or `sphere`",
-    form: Form::Value,
+    form: Form::UnderKey,
     keys: &[
         key("centre", Vector)
             .unit("m")
@@ -131,9 +131,9 @@ pub(super) static BALL: Section = Section {
     ],
 };
 
-pub(super) static ELLIPSOID: Section = Section {
+pub(super) static ELLIPSOID: TableRules = TableRules {
     title: "an `ellipse` or `ellipsoid`",
-    form: Form::Value,
+    form: Form::UnderKey,
     keys: &[
         key("centre", Vector)
             .unit("m")
@@ -147,9 +147,9 @@ pub(super) static ELLIPSOID: Section = Section {
     ],
 };
 
-pub(super) static SHELL: Section = Section {
+pub(super) static SHELL: TableRules = TableRules {
     title: "an `annulus` or `shell`",
-    form: Form::Value,
+    form: Form::UnderKey,
     keys: &[
         key("centre", Vector)
             .unit("m")
@@ -168,18 +168,18 @@ pub(super) static SHELL: Section = Section {
     ],
 };
 
-pub(super) static POLYGON: Section = Section {
+pub(super) static POLYGON: TableRules = TableRules {
     title: "a `polygon`",
-    form: Form::Value,
-    keys: &[key("points", Kind::Corners)
+    form: Form::UnderKey,
+    keys: &[key("points", ValueType::Corners)
         .unit("m")
         .required()
         .means("corners [x, y] in order")],
 };
 
-pub(super) static LAYER: Section = Section {
+pub(super) static LAYER: TableRules = TableRules {
     title: "a `layer`",
-    form: Form::Value,
+    form: Form::UnderKey,
     keys: &[
         key("around", Table(&SHAPE))
             .required()

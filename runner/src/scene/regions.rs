@@ -8,11 +8,11 @@ use super::region::{Region, Velocity};
 use super::region_keys::{
     BALL, BLOCK, ELLIPSOID, LAYER, POLYGON, REGION, REGIONS, SHAPE, SHELL, VELOCITY,
 };
-use super::schema::{Family, Key, listed};
+use super::schema::{Family, SceneKey, listed};
 use super::shape::Shape;
-use super::spec::{Entry, Table, Value};
+use super::spec::{Entry, WrittenTable, WrittenValue};
 use super::values::{as_table, elements, number, numbers};
-use super::words::{Dimension, LatticeKind, RegionKind, Word};
+use super::words::{ChoiceWord, Dimension, LatticeKind, RegionKind};
 
 /// The axes by name, for messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -23,12 +23,12 @@ pub(super) fn require_fluid<'a>(builder: &mut Builder<'a>, top: Here<'a>) {
         return;
     };
     // A region of unknown kind counts as fluid: its kind is reported already.
-    let is_fluid = |table: &Table| match table.get("kind").map(|kind| &kind.node.value) {
-        Some(Value::Text(word)) => RegionKind::from_word(word) != Some(RegionKind::Wall),
+    let is_fluid = |table: &WrittenTable| match table.get("kind").map(|kind| &kind.node.value) {
+        Some(WrittenValue::Text(word)) => RegionKind::from_word(word) != Some(RegionKind::Wall),
         _ => true,
     };
     let mut regions = elements(&entry.node).iter().filter_map(as_table);
-    if matches!(entry.node.value, Value::List(_)) && !regions.any(is_fluid) {
+    if matches!(entry.node.value, WrittenValue::List(_)) && !regions.any(is_fluid) {
         builder.missing(
             top,
             "no region is fluid".to_owned(),
@@ -38,7 +38,7 @@ pub(super) fn require_fluid<'a>(builder: &mut Builder<'a>, top: Here<'a>) {
 }
 
 impl Keys for Vec<Region> {
-    const KEYS: &'static [Key] = &[REGIONS];
+    const KEYS: &'static [SceneKey] = &[REGIONS];
     const FAMILY: Option<Family> = None;
 
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Self {
@@ -150,10 +150,10 @@ fn only_one<'a>(
             .table
             .entries
             .iter()
-            .all(|e| here.section.key(&e.name).is_some())
+            .all(|e| here.rules.key(&e.name).is_some())
     {
         let names: Vec<String> = here
-            .section
+            .rules
             .keys
             .iter()
             .filter(|key| exclusive(key.name) && key.exists_in(Some(builder.dimension)))
@@ -230,7 +230,7 @@ fn shape<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {
 
 fn shapes<'a>(builder: &mut Builder<'a>, entry: &'a Entry) -> Vec<Shape> {
     let list = elements(&entry.node);
-    if list.is_empty() && matches!(entry.node.value, Value::List(_)) {
+    if list.is_empty() && matches!(entry.node.value, WrittenValue::List(_)) {
         let help = format!("write `{} = [{{ … }}, {{ … }}]`", entry.name);
         builder.out_of_range(
             format!("`{}` holds no shape", entry.name),
@@ -250,7 +250,7 @@ fn shapes<'a>(builder: &mut Builder<'a>, entry: &'a Entry) -> Vec<Shape> {
 
 /// A shape that is described by numbers, or a layer.
 fn primitive<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &str) -> Option<Shape> {
-    let mut inner = |section| builder.inner(here, name, section);
+    let mut inner = |rules| builder.inner(here, name, rules);
     Some(match name {
         "rectangle" | "box" => {
             let inner = inner(&BLOCK)?;

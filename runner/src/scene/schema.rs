@@ -11,17 +11,17 @@ use std::ptr;
 
 use super::words::Dimension;
 
-/// A table of the scene language and the keys that may stand in it.
+/// The rules of a table of the scene language: which keys may stand in it.
 ///
-/// Shapes hold shapes, so sections refer to each other in rings: two sections are equal when they
-/// are the same one.
-pub(super) struct Section {
+/// Shapes hold shapes, so rules refer to each other in rings: two of them are equal when they are
+/// the same one in memory.
+pub(super) struct TableRules {
     /// How a message names the table, e.g. "`[fluid]`".
     pub title: &'static str,
     /// How the table is written in a scene file.
     pub form: Form,
-    /// Its keys, in the order in which they are printed.
-    pub keys: &'static [Key],
+    /// Its keys, in the order in which messages list them.
+    pub keys: &'static [SceneKey],
 }
 
 /// How a table is written in a scene file.
@@ -32,37 +32,37 @@ pub(super) enum Form {
     /// Under a header in single brackets.
     Header,
     /// As the value of a key, by whose name messages call it.
-    Value,
+    UnderKey,
     /// In another way.
     Other,
 }
 
-impl PartialEq for Section {
+impl PartialEq for TableRules {
     fn eq(&self, other: &Self) -> bool {
         ptr::eq(self, other)
     }
 }
 
-impl Section {
+impl TableRules {
     /// The key of this name.
-    pub fn key(&self, name: &str) -> Option<&'static Key> {
+    pub fn key(&self, name: &str) -> Option<&'static SceneKey> {
         self.keys.iter().find(|key| key.name == name)
     }
 
-    /// The first key of this name in this section or one below it, and the section it stands in.
-    pub fn find_below(&'static self, name: &str) -> Option<&'static Section> {
+    /// The first table, this one or one below it, that has a key of this name.
+    pub fn find_below(&'static self, name: &str) -> Option<&'static TableRules> {
         let mut seen = Vec::new();
         self.list_below(&mut seen);
-        seen.into_iter().find(|section| section.key(name).is_some())
+        seen.into_iter().find(|rules| rules.key(name).is_some())
     }
 
-    fn list_below(&'static self, seen: &mut Vec<&'static Section>) {
+    fn list_below(&'static self, seen: &mut Vec<&'static TableRules>) {
         if seen.contains(&self) {
             return;
         }
         seen.push(self);
         for key in self.keys {
-            if let Kind::Table(inner) | Kind::Tables(inner) = key.kind {
+            if let ValueType::Table(inner) | ValueType::Tables(inner) = key.kind {
                 inner.list_below(seen);
             }
         }
@@ -71,7 +71,7 @@ impl Section {
 
 /// The type of a key's value.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum ValueType {
     /// A string.
     Text,
     /// One of these words.
@@ -91,9 +91,9 @@ pub(super) enum Kind {
     /// A number in 2D, a vector in 3D.
     Rotation,
     /// One table.
-    Table(&'static Section),
+    Table(&'static TableRules),
     /// An array of tables.
-    Tables(&'static Section),
+    Tables(&'static TableRules),
 }
 
 /// The numbers a key allows.
@@ -138,11 +138,11 @@ impl fmt::Display for Range {
 
 /// What an absent key means.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Default {
+pub(super) enum IfAbsent {
     /// An error.
     Required,
     /// No value, or one that follows from other keys.
-    Absent,
+    Optional,
     /// This number.
     Number(f64),
     /// This word.
@@ -151,10 +151,10 @@ pub(super) enum Default {
 
 /// One key.
 #[derive(Clone, Copy)]
-pub(super) struct Key {
+pub(super) struct SceneKey {
     pub name: &'static str,
-    pub kind: Kind,
-    pub default: Default,
+    pub kind: ValueType,
+    pub default: IfAbsent,
     pub range: Range,
     pub meaning: &'static str,
     /// The SI unit; empty for a number without one.
@@ -173,7 +173,7 @@ pub(super) type Family = &'static str;
 /// The family of a key that every model has.
 pub(super) const ANY_MODEL: Option<Family> = None;
 
-impl Key {
+impl SceneKey {
     /// Whether a scene of this dimension may have the key; an unknown dimension has the keys that
     /// all have.
     pub fn exists_in(&self, dimension: Option<Dimension>) -> bool {
@@ -183,10 +183,10 @@ impl Key {
     /// What the value is, for the first half of a comment: unit, allowed words or type.
     pub fn unit_label(&self) -> String {
         match self.kind {
-            Kind::Text => "text".to_owned(),
-            Kind::Choice(words) => quoted(words, "or"),
-            Kind::Dimension => "2 or 3".to_owned(),
-            Kind::Table(_) | Kind::Tables(_) => "table".to_owned(),
+            ValueType::Text => "text".to_owned(),
+            ValueType::Choice(words) => quoted(words, "or"),
+            ValueType::Dimension => "2 or 3".to_owned(),
+            ValueType::Table(_) | ValueType::Tables(_) => "table".to_owned(),
             _ if self.unit.is_empty() => "no unit".to_owned(),
             _ => self.unit.to_owned(),
         }
@@ -210,11 +210,11 @@ pub(super) fn listed(phrases: &[String], conjunction: &str) -> String {
 
 /// A key without a unit, a range, a default and a meaning, which are put to it by methods: for keys
 /// whose values are read by hand.
-pub(super) const fn key(name: &'static str, kind: Kind) -> Key {
-    Key {
+pub(super) const fn key(name: &'static str, kind: ValueType) -> SceneKey {
+    SceneKey {
         name,
         kind,
-        default: Default::Absent,
+        default: IfAbsent::Optional,
         range: Range::Any,
         meaning: "",
         unit: "",
@@ -224,7 +224,7 @@ pub(super) const fn key(name: &'static str, kind: Kind) -> Key {
     }
 }
 
-impl Key {
+impl SceneKey {
     pub const fn unit(mut self, unit: &'static str) -> Self {
         self.unit = unit;
         self
@@ -236,12 +236,12 @@ impl Key {
     }
 
     pub const fn required(mut self) -> Self {
-        self.default = Default::Required;
+        self.default = IfAbsent::Required;
         self
     }
 
     pub const fn or(mut self, number: f64) -> Self {
-        self.default = Default::Number(number);
+        self.default = IfAbsent::Number(number);
         self
     }
 
@@ -257,7 +257,7 @@ impl Key {
 }
 
 /// The number of keys in several lists.
-pub(super) const fn count(lists: &[&[Key]]) -> usize {
+pub(super) const fn count(lists: &[&[SceneKey]]) -> usize {
     let mut total = 0;
     let mut list = 0;
     while list < lists.len() {
@@ -269,7 +269,7 @@ pub(super) const fn count(lists: &[&[Key]]) -> usize {
 
 /// Several lists of keys as one, which holds `N` keys as [`count`] says; the first list is not
 /// empty.
-pub(super) const fn join<const N: usize>(lists: &[&[Key]]) -> [Key; N] {
+pub(super) const fn join<const N: usize>(lists: &[&[SceneKey]]) -> [SceneKey; N] {
     let mut all = [lists[0][0]; N];
     let (mut list, mut filled) = (0, 0);
     while list < lists.len() {

@@ -1,7 +1,7 @@
 //! Shapes: what they are made of, and boxes that hold them. Which lattice nodes belong to one is
 //! decided in [`filling`](super::filling).
 
-use super::geometry::{Bounds, Vector3, around_both, grown, overlap};
+use super::geometry::{AxisBox, Vector3, around_both, grown, overlap};
 use super::words::Dimension;
 
 /// Tolerance of the faces, in spacings.
@@ -78,7 +78,7 @@ impl Shape {
     }
 
     /// A box that holds every node of the shape; `None` when the shape is empty.
-    pub(super) fn bounds(&self, spacing: f64) -> Option<Bounds> {
+    pub(super) fn bounds(&self, spacing: f64) -> Option<AxisBox> {
         match self {
             Self::Block { min, max } => Some((*min, *max)),
             Self::Ball { centre, radius } => Some(grown((*centre, *centre), [*radius; 3])),
@@ -118,9 +118,9 @@ impl Shape {
         Some(std::array::from_fn(|k| 0.5 * (low[k] + high[k])))
     }
 
-    /// Bounds in which a layer counts as the shape it wraps. The bounds of an intersection may be
+    /// AxisBox in which a layer counts as the shape it wraps. The bounds of an intersection may be
     /// empty.
-    fn outline(&self) -> Option<Bounds> {
+    fn outline(&self) -> Option<AxisBox> {
         match self {
             Self::Layer { around, .. } => around.outline(),
             Self::Union(shapes) => shapes.iter().filter_map(Self::outline).reduce(around_both),

@@ -3,7 +3,7 @@
 use super::builder::{Builder, Here};
 use super::declare::Keys;
 use super::page::{Page, number};
-use super::schema::{Family, Key, Kind, Range, key};
+use super::schema::{Family, Range, SceneKey, ValueType, key};
 use super::spec::Entry;
 
 /// How the time step is chosen.
@@ -15,18 +15,18 @@ pub enum StepRule {
     Seconds(f64),
 }
 
-const CFL: Key = key("cfl", Kind::Number)
+const CFL: SceneKey = key("cfl", ValueType::Number)
     .within(Range::AboveUpTo(0.0, 2.0))
     .or(0.2)
     .means("Courant number: time step = cfl * h / sound_speed");
 
-const TIME_STEP: Key = key("time_step", Kind::Number)
+const TIME_STEP: SceneKey = key("time_step", ValueType::Number)
     .unit("s")
     .within(Range::Above(0.0))
     .means("time step, in place of cfl");
 
 impl Keys for StepRule {
-    const KEYS: &'static [Key] = &[CFL, TIME_STEP];
+    const KEYS: &'static [SceneKey] = &[CFL, TIME_STEP];
     const FAMILY: Option<Family> = None;
 
     /// Of two that are given, the one in an override counts.

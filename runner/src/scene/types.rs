@@ -6,9 +6,9 @@ use super::forces::Gravity;
 use super::model::Model;
 use super::page::Page;
 use super::region::Region;
-use super::schema::Default::{Absent, Number, Required, Word};
+use super::schema::IfAbsent::{Number, Optional, Required, Word};
 use super::schema::Range::{Above, Any, Between};
-use super::schema::{ANY_MODEL, Section};
+use super::schema::{ANY_MODEL, TableRules};
 use super::step::StepRule;
 use super::wcsph::{Fluid, WallPotential, Water};
 use super::words::{Dimension, Integrator};
@@ -16,9 +16,9 @@ use super::words::{Dimension, Integrator};
 keys! {
     /// A validated scene. Points have three coordinates; in two dimensions every z is 0.
     Scene of ANY_MODEL, table File "the top level" {
-        name: String = Absent, Any, "short name; runs are filed under it";
-        description: String = Absent, Any, "what happens in this scene";
-        source: String = Absent, Any, "where the numbers come from";
+        name: String = Optional, Any, "short name; runs are filed under it";
+        description: String = Optional, Any, "what happens in this scene";
+        source: String = Optional, Any, "where the numbers come from";
         dimension: Dimension = Number(2.0), Any, "number of space dimensions";
         particle_spacing: f64 = Required, Above(0.0),
             "side of the square or cube of fluid that one particle stands for", "m";
@@ -26,9 +26,9 @@ keys! {
             "support radius h, where the kernel vanishes", "particle spacings";
         /// How the time step is chosen.
         ..step: StepRule;
-        turnaround: Option<f64> = Absent, Above(0.0),
+        turnaround: Option<f64> = Optional, Above(0.0),
             "time at which all velocities are reversed; absent: a one-way run", "s";
-        end: Option<f64> = Absent, Above(0.0),
+        end: Option<f64> = Optional, Above(0.0),
             "time at which the run stops, both legs added; absent: twice the turnaround", "s";
         model: Model = Word(Model::Symplectic.word()), Any,
             "density by summation (reversible), advanced in time, \
@@ -38,16 +38,16 @@ keys! {
         /// The settings of the weakly compressible models.
         ..water: Water;
         fluid: Fluid = Required, Any, "what the material is";
-        gravity: Gravity = Absent, Any, "which outside forces act";
-        wall: Option<WallPotential> = Absent, Any, "how a conservative wall repels";
-        output: Output = Absent, Any, "how much a run writes; changes no bit of it";
+        gravity: Gravity = Optional, Any, "which outside forces act";
+        wall: Option<WallPotential> = Optional, Any, "how a conservative wall repels";
+        output: Output = Optional, Any, "how much a run writes; changes no bit of it";
         /// What is filled with particles, in the order of their ids.
         ..regions: Vec<Region>;
     }
 }
 
 /// The top level of a scene file.
-pub(super) const TOP: &Section = Scene::SECTION;
+pub(super) const TOP: &TableRules = Scene::RULES;
 
 keys! {
     /// How much a run writes; it changes no bit of the run.

@@ -2,8 +2,8 @@
 //! surfaces and walls, and the filter.
 
 use super::declare::keys;
-use super::schema::Default::{Number, Required, Word};
 use super::schema::Family;
+use super::schema::IfAbsent::{Number, Required, Word};
 use super::schema::Range::{Above, AboveUpTo, Any, AtLeast, Between};
 use super::words::words;
 

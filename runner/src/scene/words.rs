@@ -2,7 +2,7 @@
 //! lists its words once, so that parsing, help texts and printing cannot disagree.
 
 /// A choice written in a scene as one word.
-pub(super) trait Word: Sized + Copy + 'static {
+pub(super) trait ChoiceWord: Sized + Copy + 'static {
     /// Every word of this choice.
     const WORDS: &'static [&'static str];
 
@@ -37,7 +37,7 @@ macro_rules! words {
             }
         }
 
-        impl $crate::scene::words::Word for $name {
+        impl $crate::scene::words::ChoiceWord for $name {
             const WORDS: &'static [&'static str] = $name::WORDS;
             const FIRST: Self = [$(Self::$variant),+][0];
 

@@ -145,7 +145,7 @@ pub fn set<const N: usize>(pairs: [&str; N]) -> Vec<String> {
 const MARK: &str = "reproduce.json";
 
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-struct Mark {
+struct ReportMark {
     report: String,
     quick: bool,
 }
@@ -163,7 +163,7 @@ impl<'a> Lab<'a> {
         stop: &'a AtomicBool,
         news: impl FnMut(News<'_>) + 'a,
     ) -> Result<Self, LabError> {
-        let mark = Mark {
+        let mark = ReportMark {
             report: "loschmidt reproduce".to_owned(),
             quick,
         };
@@ -174,7 +174,7 @@ impl<'a> Lab<'a> {
         };
         if dir.exists() {
             let text = fs::read_to_string(&path).unwrap_or_default();
-            match serde_json::from_str::<Mark>(&text) {
+            match serde_json::from_str::<ReportMark>(&text) {
                 Ok(found) if found == mark => {}
                 Ok(_) if force => remove_sections(dir)?,
                 Ok(found) if found.quick => return Err(occupied("holds a quick report")),
