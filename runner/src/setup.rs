@@ -2,7 +2,7 @@
 
 mod limits;
 
-pub use limits::force_limit;
+pub use limits::{fixed_limits, force_limit};
 
 use crate::isc;
 use crate::scene::{self, InitialState, Scene, Vector3};
@@ -216,19 +216,4 @@ pub fn check_memory(scene: &Scene) -> Result<(), MemoryError> {
         Some(available) if needed > available => Err(MemoryError { needed, available }),
         _ => Ok(()),
     }
-}
-
-/// Time steps that are small enough by the scene alone, s, by name:
-///
-/// - `acoustic`: 0.4 h/c. Störmer–Verlet lost the dam break at 0.6 and kept it at 0.4.
-/// - `wall`: 0.5 r_wall/sqrt(2 E). Near r_wall the conservative wall is a spring of frequency
-///   sqrt(2 E)/r_wall, stable for time steps up to four times this.
-#[must_use]
-pub fn fixed_limits(scene: &Scene) -> Vec<(&'static str, f64)> {
-    let acoustic = 0.4 * scene.support_radius() / scene.fluid.sound_speed;
-    let mut limits = vec![("acoustic", acoustic)];
-    if let Wall::Conservative { energy, radius, .. } = wall(scene) {
-        limits.push(("wall", 0.5 * radius / (2.0 * energy).sqrt()));
-    }
-    limits
 }

@@ -161,9 +161,7 @@ impl<'a> Builder<'a> {
             return entry;
         }
         let key = here.rules.key(name)?;
-        if !matches!(key.kind, ValueType::Table(_) | ValueType::Tables(_))
-            || here.rules.form != Form::File
-        {
+        if !(key.kind.is_table() && here.rules.form == Form::File) {
             self.require(here, key);
         }
         None
@@ -172,9 +170,7 @@ impl<'a> Builder<'a> {
     /// Reports the tables that the file needs and lacks.
     pub fn require_tables(&mut self, top: Here<'a>) {
         for key in top.rules.keys {
-            if matches!(key.kind, ValueType::Table(_) | ValueType::Tables(_))
-                && top.table.get(key.name).is_none()
-            {
+            if key.kind.is_table() && top.table.get(key.name).is_none() {
                 self.require(top, key);
             }
         }
@@ -194,9 +190,10 @@ impl<'a> Builder<'a> {
             (Form::File, _) => format!("`{name}` is missing"),
             _ => format!("{} needs `{name}`", here.title()),
         };
-        let help = match key.kind {
-            ValueType::Table(_) | ValueType::Tables(_) => format!("it says {}", key.meaning),
-            _ => format!("`{name}` ({}): {}", key.unit_label(), key.meaning),
+        let help = if key.kind.is_table() {
+            format!("it says {}", key.meaning)
+        } else {
+            format!("`{name}` ({}): {}", key.unit_label(), key.meaning)
         };
         self.missing(here, message, vec![help]);
     }

@@ -13,13 +13,15 @@
 //! }
 //! ```
 //!
-//! Each says: name, type, default, range, meaning and, where there is one, the unit. From it follow
-//! a field of the struct with its documentation, the key in the schema, reading the field from what
-//! was written, and printing it with its comment. `of` names the models that have the keys,
-//! `ANY_MODEL` being all of them; the part from `table` on is left out for keys that stand in a
-//! table which another declaration names. That one takes them in, after the key that they follow,
-//! by a line
-//! `..field: Type;`. A key is printed where it stands, or where `printed after "key"` says.
+//! Each line says: name, type, default, range, meaning and, where there is one, the unit. From it
+//! follow a field of the struct with its documentation, the key in the schema, reading the field
+//! from what was written, and printing it with its comment.
+//!
+//! - `of` names the models that have the keys; `ANY_MODEL` stands for all of them.
+//! - `table` says how the table of these keys is written and what messages call it. It is left out
+//!   for keys that stand in the table of another declaration, which takes them in by a line
+//!   `..field: Type;` after the key that they follow.
+//! - A key is printed where it stands, or where `printed after "key"` says.
 //!
 //! What a type looks like in a scene file is said once by [`KeyValue`], for every key that has it.
 
@@ -31,7 +33,9 @@ use super::words::{ChoiceWord, Dimension};
 
 /// A type that the value of a key can have.
 pub(super) trait KeyValue: Sized {
+    /// What stands in a scene file.
     const KIND: ValueType;
+
     /// The models that have keys of this type; `None` where all have them.
     const FAMILY: Option<Family> = None;
 
@@ -44,9 +48,13 @@ pub(super) trait KeyValue: Sized {
 
 /// Keys that stand beside each other in a table, and their values.
 pub(super) trait Keys: Sized {
+    /// The keys.
     const KEYS: &'static [SceneKey];
+
+    /// The models that have them; `None` where all have them.
     const FAMILY: Option<Family>;
 
+    /// The values in a table.
     fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Self;
 
     /// Prints every key, commented out where there are no values.
@@ -55,6 +63,7 @@ pub(super) trait Keys: Sized {
 
 /// Keys that fill a table.
 pub(super) trait KeyTable: Keys + 'static {
+    /// The table.
     const RULES: &'static TableRules;
 }
 

@@ -37,49 +37,53 @@ fn print_at(
     }
 }
 
+/// The keys of a velocity in the order in which they are printed.
+const VELOCITY_KEYS: [&str; 8] = [
+    "uniform", "rotation", "gresho", "radius", "kepler", "centre", "linear", "offset",
+];
+
+/// Prints every key of a velocity that exists in the scene's dimension.
 fn print_velocity(page: &mut Page, velocity: Option<Velocity>) {
-    let mut values = [const { None }; 8];
+    let given = velocity.map_or(Vec::new(), |velocity| velocity_values(page, velocity));
+    for name in VELOCITY_KEYS {
+        let key = VELOCITY.key(name);
+        if let Some(key) = key.filter(|key| key.exists_in(Some(page.dimension))) {
+            let value = given.iter().find(|(known, _)| *known == name);
+            let value = value.map(|(_, value)| value.clone());
+            page.value_at(key, &format!("velocity.{name}"), value);
+        }
+    }
+}
+
+/// The keys that a velocity has, with their values.
+fn velocity_values(page: &Page, velocity: Velocity) -> Vec<NamedValue> {
     match velocity {
-        None => {}
-        Some(Velocity::Uniform(uniform)) => values[0] = Some(page.vector(uniform)),
-        Some(Velocity::Rotation { omega, centre }) => {
-            values[1] = Some(match page.dimension {
+        Velocity::Uniform(uniform) => vec![("uniform", page.vector(uniform))],
+        Velocity::Rotation { omega, centre } => {
+            let rotation = match page.dimension {
                 Dimension::Two => number(omega[2]),
                 Dimension::Three => page.vector(omega),
-            });
-            values[5] = Some(page.vector(centre));
+            };
+            vec![("rotation", rotation), ("centre", page.vector(centre))]
         }
-        Some(Velocity::Gresho {
+        Velocity::Gresho {
             peak,
             radius,
             centre,
-        }) => {
-            values[2] = Some(number(peak));
-            values[3] = Some(number(radius));
-            values[5] = Some(page.vector(centre));
-        }
-        Some(Velocity::Kepler { strength, centre }) => {
-            values[4] = Some(number(strength));
-            values[5] = Some(page.vector(centre));
-        }
-        Some(Velocity::Linear { matrix, offset }) => {
-            let rows: Vec<String> = matrix[..page.dimension.axes()]
-                .iter()
-                .map(|&row| page.vector(row))
-                .collect();
-            values[6] = Some(format!("[{}]", rows.join(", ")));
-            values[7] = Some(page.vector(offset));
-        }
-    }
-    let names = [
-        "uniform", "rotation", "gresho", "radius", "kepler", "centre", "linear", "offset",
-    ];
-    for (name, value) in names.into_iter().zip(values) {
-        if let Some(key) = VELOCITY
-            .key(name)
-            .filter(|key| key.exists_in(Some(page.dimension)))
-        {
-            page.value_at(key, &format!("velocity.{name}"), value);
+        } => vec![
+            ("gresho", number(peak)),
+            ("radius", number(radius)),
+            ("centre", page.vector(centre)),
+        ],
+        Velocity::Kepler { strength, centre } => vec![
+            ("kepler", number(strength)),
+            ("centre", page.vector(centre)),
+        ],
+        Velocity::Linear { matrix, offset } => {
+            let rows = matrix[..page.dimension.axes()].iter();
+            let rows: Vec<String> = rows.map(|&row| page.vector(row)).collect();
+            let matrix = format!("[{}]", rows.join(", "));
+            vec![("linear", matrix), ("offset", page.vector(offset))]
         }
     }
 }

@@ -96,6 +96,13 @@ pub(super) enum ValueType {
     Tables(&'static TableRules),
 }
 
+impl ValueType {
+    /// Whether it is a table or an array of tables.
+    pub fn is_table(self) -> bool {
+        matches!(self, Self::Table(_) | Self::Tables(_))
+    }
+}
+
 /// The numbers a key allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Range {
