@@ -33,7 +33,7 @@ fn shepard_in<const D: usize>(scene: &Scene, frame: &Frame) -> Vec<[f64; 3]> {
         .zip(frame.column("density").unwrap_or_default())
         .map(|((x, u), rho)| (first(x), frame.particle_mass / rho, *u))
         .collect();
-    if scene.wall_model == WallModel::Dummy {
+    if scene.water.wall_model == WallModel::Dummy {
         let volume = frame.particle_mass / scene.fluid.reference_density;
         let walls = frame.wall_position.iter();
         sources.extend(walls.map(|x| (first(x), volume, [0.0; 3])));

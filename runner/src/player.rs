@@ -275,7 +275,8 @@ impl Player {
         result
     }
 
-    /// Flips the last bit of the first coordinate of a particle: the smallest perturbation there is.
+    /// Flips the last bit of the first coordinate of a particle: the smallest perturbation there
+    /// is.
     pub fn flip_last_bit(&mut self, particle: u64) {
         self.simulation.flip_last_bit(particle);
     }
@@ -355,14 +356,14 @@ impl Player {
         }
     }
 
-    /// Gives back memory that only steps need, before something large is made of the state. The next
-    /// step costs two more.
+    /// Gives back memory that only steps need, before something large is made of the state. The
+    /// next step costs two more.
     pub fn release(&mut self) {
         self.simulation.release();
     }
 
-    /// What the pair sums so far were made with: an instruction set, `serial` for the plain traversal, or
-    /// both.
+    /// What the pair sums so far were made with: an instruction set, `serial` for the plain
+    /// traversal, or both.
     #[must_use]
     pub fn backend(&self) -> String {
         self.simulation.backend()

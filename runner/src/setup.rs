@@ -1,9 +1,12 @@
 //! From a scene to a simulation: the parameters of the core, its units, and the memory it takes.
 
+mod limits;
+
+pub use limits::{fixed_limits, force_limit};
+
 use crate::isc;
-use crate::player::Player;
 use crate::saved::ArithmeticKind;
-use crate::scene::{self, InitialState, Point, Scene};
+use crate::scene::{self, InitialState, Scene, Vector3};
 use crate::simulation::{BuildError, Options, Simulation, simulate};
 use crate::storage;
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
@@ -11,7 +14,7 @@ use loschmidt_core::model::{Measure, Model};
 use loschmidt_core::schemes::wcsph::{
     AntiClump, Central, DensityCorrection, Filter, Gravity, StateEquation, Wall,
 };
-use loschmidt_core::{Arithmetic, Fault, Fixed, Float, Parameters, Scale, Standard, Symplectic};
+use loschmidt_core::{Arithmetic, Fixed, Float, Parameters, Scale, Standard, Symplectic};
 
 /// Sets up the scene's simulation at step 0.
 ///
@@ -76,7 +79,7 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             scene::EquationOfState::Tait => StateEquation::Tait,
             scene::EquationOfState::Linear => StateEquation::Linear,
         },
-        density_correction: match scene.density_correction {
+        density_correction: match scene.water.density_correction {
             scene::DensityCorrection::Constant => DensityCorrection::Constant,
             scene::DensityCorrection::Isc | scene::DensityCorrection::None => {
                 DensityCorrection::None
@@ -95,7 +98,7 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             pressure: scene.fluid.anti_clump_pressure,
             support_radius: scene.fluid.anti_clump_radius * scene.particle_spacing,
         }),
-        filter_every: scene.filter_every,
+        filter_every: scene.water.filter_every,
         integrator: integrator(scene.integrator),
         scale: Scale::with_headroom(
             // A drop that is smaller than its kernel must still leave room for the kernel.
@@ -120,7 +123,7 @@ pub fn integrator(integrator: scene::Integrator) -> &'static Integrator {
 }
 
 fn wall(scene: &Scene) -> Wall {
-    match (scene.wall_model, scene.wall) {
+    match (scene.water.wall_model, scene.wall) {
         (scene::WallModel::Conservative, Some(wall)) => Wall::Conservative {
             energy: wall.energy,
             radius: wall.radius * scene.particle_spacing,
@@ -134,7 +137,7 @@ fn wall(scene: &Scene) -> Wall {
 
 /// The largest speed at the start, m/s.
 fn fastest(initial: &InitialState) -> f64 {
-    let speed = |v: &Point| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let speed = |v: &Vector3| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
     initial.fluid_velocity.iter().map(speed).fold(0.0, f64::max)
 }
 
@@ -142,7 +145,7 @@ fn max_buckets(particles: usize) -> usize {
     2 * particles
 }
 
-fn first<const D: usize>(x: Point) -> [f64; D] {
+fn first<const D: usize>(x: Vector3) -> [f64; D] {
     std::array::from_fn(|d| x[d])
 }
 
@@ -151,7 +154,7 @@ struct Bounds {
     /// Largest |coordinate|, m.
     farthest: f64,
     /// Size of the bounding box, m.
-    extent: Point,
+    extent: Vector3,
 }
 
 impl Bounds {
@@ -190,7 +193,7 @@ pub fn estimated_bytes(scene: &Scene) -> u64 {
     let axes = dimension as u64;
     let saved = 3 * 8 * ((2 * axes + 2) * fluid + (axes + 1) * walls);
     let frame = 72 * fluid + 24 * walls;
-    let correction = match scene.density_correction {
+    let correction = match scene.water.density_correction {
         scene::DensityCorrection::Isc => isc::estimated_bytes(axes, scene.support, fluid),
         scene::DensityCorrection::Constant | scene::DensityCorrection::None => 0,
     };
@@ -247,43 +250,4 @@ pub fn check_memory(scene: &Scene) -> Result<(), MemoryError> {
         Some(available) if needed > available => Err(MemoryError { needed, available }),
         _ => Ok(()),
     }
-}
-
-/// Time steps that are small enough by the scene alone, s, by name:
-///
-/// - `acoustic`: 0.4 h/c. Störmer–Verlet lost the dam break at 0.6 and kept it at 0.4.
-/// - `wall`: 0.5 r_wall/sqrt(2 E). Near r_wall the conservative wall is a spring of frequency
-///   sqrt(2 E)/r_wall, stable for time steps up to four times this.
-#[must_use]
-pub fn fixed_limits(scene: &Scene) -> Vec<(&'static str, f64)> {
-    let acoustic = 0.4 * scene.support_radius() / scene.fluid.sound_speed;
-    let mut limits = vec![("acoustic", acoustic)];
-    if let Wall::Conservative { energy, radius, .. } = wall(scene) {
-        limits.push(("wall", 0.5 * radius / (2.0 * energy).sqrt()));
-    }
-    limits
-}
-
-/// The time step 0.25 sqrt(h/a), s, with the largest acceleration a of the player's present state;
-/// `None` without forces. Takes a step to learn the accelerations, and goes back to where it was.
-///
-/// # Errors
-/// The step failed.
-pub fn force_limit(player: &mut Player) -> Result<Option<f64>, Fault> {
-    let before = player.save();
-    let (position, arrow) = (player.position(), player.arrow());
-    let result = player.advance(1);
-    let after = player.save();
-    // The state came from this very player: it fits.
-    let _ = player.restore(&before, position, arrow);
-    result?;
-    let dt = player.scene().time_step();
-    let largest = (0..before.id.len())
-        .map(|n| {
-            let (a, b) = (before.velocity(n), after.velocity(n));
-            (0..3).map(|d| ((b[d] - a[d]) / dt).powi(2)).sum::<f64>()
-        })
-        .fold(0.0, f64::max)
-        .sqrt();
-    Ok((largest > 0.0).then(|| 0.25 * (player.scene().support_radius() / largest).sqrt()))
 }

@@ -110,7 +110,7 @@ fn the_box_of_the_dam_break_is_three_rows_deep_and_open_at_the_top() {
 fn the_drops_are_turned_after_5_000_steps_and_mirror_each_other() {
     let scene = scene("colliding-drops", &[]);
     assert_eq!((scene.steps_out(), scene.steps_back()), (5_000, 5_000));
-    assert_eq!(scene.wall_model, WallModel::None);
+    assert_eq!(scene.water.wall_model, WallModel::None);
     assert_eq!(scene.gravity.uniform, [0.0; 3]);
     let state = scene.initial_state().expect("a state");
     assert!(state.fluid.len() <= 5_000 && state.fluid.len().is_multiple_of(2));
@@ -158,8 +158,8 @@ fn the_gresho_vortex_has_the_parameters_of_table_3() {
     assert_eq!(scene.fluid.sound_speed, 20.0);
     assert_eq!(scene.fluid.anti_clump_pressure, 10.0);
     assert_eq!(scene.fluid.anti_clump_radius, 0.5);
-    assert_eq!(scene.filter_every, 30);
-    assert_eq!(scene.wall_model, WallModel::Dummy);
+    assert_eq!(scene.water.filter_every, 30);
+    assert_eq!(scene.water.wall_model, WallModel::Dummy);
     let state = scene.initial_state().expect("a state");
     assert_eq!(state.fluid.len(), 10_000);
     // Two rows on every side, and three nodes in each corner: the fourth is too far from the fluid.

@@ -65,7 +65,7 @@ fn overrides_reach_every_key() {
     assert_eq!(scene.fluid.sound_speed, 60.0);
     assert_eq!(scene.gravity.uniform, [0.0, -1.6, 0.0]);
     assert_eq!(scene.model, Model::Standard);
-    assert_eq!(scene.density_correction, DensityCorrection::None);
+    assert_eq!(scene.water.density_correction, DensityCorrection::None);
     assert_eq!(scene.name, "other");
     let centre = [0.0, 3.0, 0.0];
     assert_eq!(

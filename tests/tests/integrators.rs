@@ -14,6 +14,7 @@ fn sums(row: &Integrator) -> (f64, f64) {
         .fold((0.0, 0.0), |(kick, drift), stage| match stage {
             Stage::Kick(c) => (kick + c, drift),
             Stage::Drift(c) => (kick, drift + c),
+            Stage::Lift(_) | Stage::Relax => panic!("{} lifts or relaxes", row.name),
         })
 }
 

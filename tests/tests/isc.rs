@@ -1,7 +1,7 @@
 //! The initial state correction: every first density is the reference density, without constants.
 
 use loschmidt_core::kernel::WendlandC2;
-use loschmidt_runner::isc::{Report, Settings, correct};
+use loschmidt_runner::isc::{Convergence, Settings, correct};
 use loschmidt_runner::scene::{DensityCorrection, InitialState, Scene};
 use loschmidt_runner::{Options, Player};
 use loschmidt_tests::permitted;
@@ -23,7 +23,7 @@ fn square(side: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn corrected(side: usize) -> (Vec<[f64; 2]>, Report) {
+fn corrected(side: usize) -> (Vec<[f64; 2]>, Convergence) {
     let mut fluid = square(side);
     let report = correct(&mut fluid, &settings::<2>(), |_, _| {}).expect("it converges");
     (fluid, report)
@@ -161,7 +161,7 @@ fn dummy_walls_are_corrected_with_the_fluid() {
         );
         let corrected = corrected_scene(2, 0.04, "dummy", &text);
         let mut plain = corrected.clone();
-        plain.density_correction = DensityCorrection::None;
+        plain.water.density_correction = DensityCorrection::None;
         let initial = |scene: &Scene| -> InitialState { scene.initial_state().expect("a state") };
         let (corrected_state, plain_state) = (initial(&corrected), initial(&plain));
         assert_eq!(corrected_state.wall.len(), plain_state.wall.len());

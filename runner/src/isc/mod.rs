@@ -21,63 +21,24 @@
 //! A lattice is too symmetric (D Dᵀ is singular for the mode that alternates from node to node), so
 //! the positions are first disturbed by up to a tenth of a spacing, from a seeded generator.
 //!
-//! What comes out has the same bits on every machine and for every number of threads: `+ - * / sqrt`
-//! in a written order, neighbours in an order that follows from the positions, and inner products
-//! in blocks of a fixed length.
+//! What comes out has the same bits on every machine and for every number of threads:
+//! `+ - * / sqrt` in a written order, neighbours in an order that follows from the positions, and
+//! inner products in blocks of a fixed length.
 //!
-//! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, section 3.2, where the solution
-//! of the Schur complement without a matrix is named as a future possibility.
+//! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, section 3.2, where the
+//! solution of the Schur complement without a matrix is named as a future possibility.
 
 mod pairs;
+mod settings;
 mod solve;
+
+pub use settings::Settings;
 
 use crate::random::SplitMix64;
 use pairs::Pairs;
 use rayon::prelude::*;
 use solve::Solver;
 use thiserror::Error;
-
-/// What the correction needs to know. Lengths in m, densities in kg/m³ (2D: kg/m²).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    /// Particle spacing.
-    pub spacing: f64,
-    /// h, where the kernel vanishes.
-    pub support_radius: f64,
-    /// Mass of every particle, kg (2D: kg/m).
-    pub mass: f64,
-    /// ρ0.
-    pub reference_density: f64,
-    /// Largest |ρ - ρ0|/ρ0 that is accepted.
-    pub tolerance: f64,
-    /// Most Newton steps.
-    pub most_steps: usize,
-    /// Largest distance, in spacings, that a particle is first moved by.
-    pub jitter: f64,
-    /// Longest displacement of a particle in one step, in spacings: a step that would move one farther
-    /// is shortened as a whole. Short steps disturb the lattice less, and there are more of them.
-    pub longest: f64,
-    /// Seed of the generator of these distances.
-    pub seed: u64,
-}
-
-impl Settings {
-    /// The settings of a scene: 1e-10 within 40 steps, a jitter of a tenth of a spacing.
-    #[must_use]
-    pub fn new(spacing: f64, support_radius: f64, mass: f64, reference_density: f64) -> Self {
-        Self {
-            spacing,
-            support_radius,
-            mass,
-            reference_density,
-            tolerance: 1e-10,
-            most_steps: 40,
-            jitter: 0.1,
-            longest: 1.0,
-            seed: 1876,
-        }
-    }
-}
 
 /// One Newton step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +55,7 @@ pub struct Step {
 
 /// What a correction did.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct Convergence {
     /// The Newton steps.
     pub steps: Vec<Step>,
     /// Largest |ρ - ρ0|/ρ0 at the end.
@@ -106,7 +67,8 @@ pub struct Report {
 /// The densities could not be made equal.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
-    "the initial state correction did not converge: after {steps} Newton steps the density of a particle is still {error:.1e} of the reference density away from it"
+    "the initial state correction did not converge: after {steps} Newton steps the density of \
+     a particle is still {error:.1e} of the reference density away from it"
 )]
 pub struct NotConverged {
     /// Newton steps taken.
@@ -118,8 +80,8 @@ pub struct NotConverged {
 /// A Newton step that makes the error this much larger has lost its way.
 const DIVERGED: f64 = 1e3;
 
-/// Moves the particles until all of their densities are the reference density. With `observe` one can
-/// look at the positions and densities (kg/m³) before each step and at the end.
+/// Moves the particles until all of their densities are the reference density. With `observe` one
+/// can look at the positions and densities (kg/m³) before each step and at the end.
 ///
 /// # Errors
 /// [`NotConverged`]; the positions are then of no use.
@@ -127,7 +89,7 @@ pub fn correct<const D: usize>(
     fluid: &mut [[f64; D]],
     settings: &Settings,
     mut observe: impl FnMut(&[[f64; D]], &[f64]),
-) -> Result<Report, NotConverged> {
+) -> Result<Convergence, NotConverged> {
     let home = fluid.to_vec();
     let rho0 = settings.reference_density;
     let mut random = SplitMix64::new(settings.seed);
@@ -147,7 +109,7 @@ pub fn correct<const D: usize>(
         let error = largest(missing.par_iter().map(|f| f.abs())) / rho0;
         if error <= settings.tolerance {
             let displacement = largest(fluid.par_iter().zip(&home).map(|(a, b)| distance(a, b)));
-            return Ok(Report {
+            return Ok(Convergence {
                 steps,
                 error,
                 displacement,

@@ -1,11 +1,11 @@
 //! Neighbours of every particle, their densities and the vectors g_ab = m W'(r_ab) e_ab.
 
-use super::Settings;
+use super::settings::Settings;
 use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::neighbours::{Cells, CellsView, Grid};
 use rayon::prelude::*;
 
-/// Particles in each piece of work.
+/// Particles in each part of the work that one thread takes at a time.
 pub(super) const GRAIN: usize = 512;
 
 /// Units in a support radius: the cells of the core count in whole units.
@@ -28,7 +28,7 @@ pub(super) struct Pairs<const D: usize> {
 }
 
 /// What one particle finds around it.
-struct Found<const D: usize> {
+struct Encounters<const D: usize> {
     other: Vec<u32>,
     gradient: Vec<[f64; D]>,
     total: [f64; D],
@@ -72,11 +72,11 @@ impl<const D: usize> Pairs<D> {
             settings,
         };
         let own = settings.mass * law.kernel.value(0.0);
-        let found: Vec<Found<D>> = (0..fluid.len())
+        let found: Vec<Encounters<D>> = (0..fluid.len())
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|i| {
-                let mut found = Found {
+                let mut found = Encounters {
                     other: Vec::new(),
                     gradient: Vec::new(),
                     total: [0.0; D],
@@ -103,7 +103,7 @@ impl<const D: usize> Pairs<D> {
         Self::joined(found)
     }
 
-    fn joined(found: Vec<Found<D>>) -> Self {
+    fn joined(found: Vec<Encounters<D>>) -> Self {
         let count = found.iter().map(|found| found.other.len()).sum();
         let mut pairs = Self {
             start: Vec::with_capacity(found.len() + 1),
@@ -162,7 +162,7 @@ impl<const D: usize> Pairs<D> {
     }
 }
 
-impl<const D: usize> Found<D> {
+impl<const D: usize> Encounters<D> {
     fn add(&mut self, density: f64, g: &[f64; D]) {
         self.density += density;
         for (total, g) in self.total.iter_mut().zip(g) {

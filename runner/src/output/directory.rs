@@ -18,10 +18,16 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum OutputError {
     /// The directory is there already.
-    #[error("{} exists already; choose another --out, or replace the run in it with --force", .0.display())]
+    #[error(
+        "{} exists already; choose another --out, or replace the run in it with --force",
+        .0.display()
+    )]
     Exists(PathBuf),
     /// `--force` replaces runs, and this is something else.
-    #[error("{} {what}, not a run that --force could replace; choose another --out", path.display())]
+    #[error(
+        "{} {what}, not a run that --force could replace; choose another --out",
+        path.display()
+    )]
     NotReplaced {
         /// What is there.
         path: PathBuf,
@@ -198,7 +204,8 @@ impl RunDirectory {
     pub fn reopen(path: &Path, rows: &[Row]) -> Result<Self, OutputError> {
         let lock = lock(path)?;
         let series = path.join(SERIES);
-        // The rewritten file replaces the old one whole, so that an interruption here loses nothing.
+        // The rewritten file replaces the old one whole, so that an interruption here loses
+        // nothing.
         let beside = series.with_extension("part");
         let file = File::create(&beside).map_err(io("create", &beside))?;
         let mut writer = SeriesWriter::new(file);

@@ -10,10 +10,10 @@
 //! | `frames/particles-000000.vtp` | [`vtp::VtpWriter`] | frame 0 |
 //! | `frames/particles-000000.csv` | [`particles_csv::CsvWriter`] | frame 0, the same numbers |
 //!
-//! Both files of a frame hold the same particles in the same order, first the fluid in the order
-//! of its ids and then the walls, and the same 64-bit floats to the last bit. All frame writers take
-//! any [`std::io::Write`], check the frame before the first byte, and keep their buffers for the next
-//! frame; they flush nothing that they do not own. They hand over pieces of about 64 KiB, so a
+//! Both files of a frame hold the same particles in the same order, first the fluid in the order of
+//! its ids and then the walls, and the same 64-bit floats to the last bit. All frame writers take
+//! any [`std::io::Write`], check the frame before the first byte, and keep their buffers for the
+//! next frame; they flush nothing that they do not own. They hand over pieces of about 64 KiB, so a
 //! `File` needs no `BufWriter` around it.
 //!
 //! A wall particle stands still, and has no density or pressure of its own in a frame: its

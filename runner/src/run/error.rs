@@ -45,7 +45,11 @@ pub enum RunError {
         path: Option<PathBuf>,
     },
     /// The run to be resumed has ended.
-    #[error("the run in {} has {}: there is nothing to resume", path.display(), if *failed { "failed" } else { "finished" })]
+    #[error(
+        "the run in {} has {}: there is nothing to resume",
+        path.display(),
+        if *failed { "failed" } else { "finished" }
+    )]
     Ended {
         /// Its directory.
         path: PathBuf,
@@ -53,7 +57,11 @@ pub enum RunError {
         failed: bool,
     },
     /// The directory was left by a dashboard, whose user goes back and forth as a plan does not.
-    #[error("{} was left by the dashboard or the window: open it with `loschmidt tui` or `loschmidt view`", .0.display())]
+    #[error(
+        "{} was left by the dashboard or the window: \
+         open it with `loschmidt tui` or `loschmidt view`",
+        .0.display()
+    )]
     Watched(PathBuf),
     /// A snapshot of another scene.
     #[error("{} was taken of another scene than the scene.toml beside it", .0.display())]

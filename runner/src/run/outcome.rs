@@ -100,9 +100,9 @@ pub struct Outcome {
     pub arithmetic: String,
     /// Who walked the particles.
     pub executor: String,
-    /// What the pair sums were made with: an instruction set; `serial` for the plain traversal, which sums
-    /// in the other executors, in floating point, and where a fluid is too long or too crowded for the
-    /// lists of the fast one; or both.
+    /// What the pair sums were made with: an instruction set; `serial` for the plain traversal,
+    /// which sums in the other executors, in floating point, and where a fluid is too long or too
+    /// crowded for the lists of the fast one; or both.
     pub backend: String,
     /// Threads at work.
     pub threads: usize,

@@ -1,8 +1,8 @@
 //! When a run records what: fixed before it starts, from the scene alone.
 //!
-//! Rows, frames and snapshots are taken at whole multiples of an interval, counted in physical steps
-//! from home, so that the way back passes the same states as the way out and their rows can be
-//! compared bit for bit. Nothing that is recorded changes a bit of the run.
+//! Rows, frames and snapshots are taken at whole multiples of an interval, counted in physical
+//! steps from home, so that the way back passes the same states as the way out and their rows can
+//! be compared bit for bit. Nothing that is recorded changes a bit of the run.
 
 use crate::output::Snapshot;
 use crate::player::Arrow;
@@ -84,7 +84,8 @@ impl Plan {
             && u64::try_from(snapshot.position) == Ok(self.position(step))
     }
 
-    /// What is due after `step` steps: at multiples of the intervals, at the turnaround, at the end.
+    /// What is due after `step` steps: at multiples of the intervals, at the turnaround, at the
+    /// end.
     #[must_use]
     pub fn due(&self, step: u64) -> Due {
         let position = self.position(step);
@@ -97,7 +98,8 @@ impl Plan {
         }
     }
 
-    /// The first step after `step` at which something is due, or the last of the next `piece` steps.
+    /// The first step after `step` at which something is due, or the last of the next `piece`
+    /// steps.
     #[must_use]
     pub fn next(&self, step: u64, piece: u64) -> u64 {
         let last = step.saturating_add(piece.max(1)).min(self.total());

@@ -1,55 +1,82 @@
-//! Checks what was written against the [schema]: every key is known, every
+//! Checks what was written against the [schema](super::schema): every key is known, every
 //! value has its key's type and range. All mistakes are collected.
 
+use super::builder::Here;
 use super::error::{Problem, ProblemKind};
+use super::model::Model;
 use super::nearest::nearest;
-use super::schema::{self, Key, Kind, Range, Section, listed, quoted};
-use super::spec::{Node, SceneSpec, Span, Table, Value};
+use super::region_keys::REGION;
+use super::schema::{Family, Form, Range, SceneKey, TableRules, ValueType, listed, quoted};
+use super::spec::{Node, SceneSpec, Span, WrittenTable, WrittenValue};
+use super::types::TOP;
 use super::values::number;
-use super::words::Dimension;
+use super::words::{ChoiceWord, Dimension};
 
 /// Every mistake that can be seen in one value alone.
 pub(super) fn check(spec: &SceneSpec) -> Vec<Problem> {
+    check_as(spec, TOP)
+}
+
+/// As [`check`], for a top level with these rules.
+pub(super) fn check_as(spec: &SceneSpec, top: &'static TableRules) -> Vec<Problem> {
     let mut checker = Checker {
         spec,
         dimension: dimension(&spec.root),
+        family: family(&spec.root),
         problems: Vec::new(),
     };
-    checker.table(&spec.root, Section::Top);
+    checker.table(&spec.root, top);
     checker.problems
 }
 
 /// The dimension of a scene; `None` when it is written wrongly.
-pub(super) fn dimension(root: &Table) -> Option<Dimension> {
+pub(super) fn dimension(root: &WrittenTable) -> Option<Dimension> {
     match root.get("dimension").map(|entry| &entry.node.value) {
-        None | Some(Value::Integer(2)) => Some(Dimension::Two),
-        Some(Value::Integer(3)) => Some(Dimension::Three),
+        None | Some(WrittenValue::Integer(2)) => Some(Dimension::Two),
+        Some(WrittenValue::Integer(3)) => Some(Dimension::Three),
         Some(_) => None,
     }
 }
 
+/// The keys that the model of a scene has; `None` when the model is written wrongly.
+pub(super) fn family(root: &WrittenTable) -> Option<Family> {
+    let model: Option<Model> = match root.get("model").map(|entry| &entry.node.value) {
+        None => Here::top(root, TOP).default_word("model"),
+        Some(WrittenValue::Text(word)) => Model::from_word(word),
+        Some(_) => None,
+    };
+    model.map(Model::family)
+}
+
 /// The mistake of a key that does not exist.
-pub(super) fn unknown_key(spec: &SceneSpec, section: Section, name: &str, span: Span) -> Problem {
+pub(super) fn unknown_key(
+    spec: &SceneSpec,
+    rules: &'static TableRules,
+    name: &str,
+    span: Span,
+) -> Problem {
     let dimension = dimension(&spec.root);
-    let here: Vec<&str> = schema::keys(section)
-        .filter(|key| key.only.is_none() || key.only == dimension)
+    let here: Vec<&str> = rules
+        .keys
+        .iter()
+        .filter(|key| key.exists_in(dimension))
         .map(|key| key.name)
         .collect();
     let help = if let Some(meant) = nearest(name, here.iter().copied()) {
         vec![format!("did you mean `{meant}`?")]
-    } else if let Some(key) = schema::KEYS.iter().find(|key| key.name == name) {
-        vec![format!("`{name}` is a key of {}", key.section.title())]
+    } else if let Some(owner) = TOP.find_below(name) {
+        vec![format!("`{name}` is a key of {}", owner.title)]
     } else {
         let all: Vec<String> = here.iter().map(|name| format!("`{name}`")).collect();
         vec![format!(
             "the keys of {} are {}",
-            section.title(),
+            rules.title,
             listed(&all, "and")
         )]
     };
-    let message = match section {
-        Section::Top => format!("unknown key `{name}`"),
-        _ => format!("unknown key `{name}` in {}", section.title()),
+    let message = match rules.form {
+        Form::File => format!("unknown key `{name}`"),
+        _ => format!("unknown key `{name}` in {}", rules.title),
     };
     spec.problem(ProblemKind::UnknownKey, message, span, help)
 }
@@ -57,6 +84,7 @@ pub(super) fn unknown_key(spec: &SceneSpec, section: Section, name: &str, span: 
 struct Checker<'a> {
     spec: &'a SceneSpec,
     dimension: Option<Dimension>,
+    family: Option<Family>,
     problems: Vec<Problem>,
 }
 
@@ -66,30 +94,51 @@ impl Checker<'_> {
             .push(self.spec.problem(kind, message, span, help));
     }
 
-    fn table(&mut self, table: &Table, section: Section) {
+    fn table(&mut self, table: &WrittenTable, rules: &'static TableRules) {
         for entry in &table.entries {
-            let Some(key) = schema::find(section, &entry.name) else {
+            let Some(key) = rules.key(&entry.name) else {
                 self.problems
-                    .push(unknown_key(self.spec, section, &entry.name, entry.key));
+                    .push(unknown_key(self.spec, rules, &entry.name, entry.key));
                 continue;
             };
             if let (Some(only), Some(dimension)) = (key.only, self.dimension)
                 && only != dimension
             {
-                self.wrong_dimension(key, dimension, entry.key);
+                self.wrong_dimension(rules, key, dimension, entry.key);
+                continue;
+            }
+            if let (Some(owner), Some(family)) = (key.family, self.family)
+                && owner != family
+            {
+                self.wrong_model(key, owner, entry.key);
                 continue;
             }
             self.value(key, &entry.node);
         }
     }
 
-    fn wrong_dimension(&mut self, key: &Key, dimension: Dimension, span: Span) {
+    fn wrong_model(&mut self, key: &SceneKey, owner: Family, span: Span) {
+        let models = quoted(&Model::words_of(owner), "or");
+        let message = format!("`{}` is a key of another model", key.name);
+        let help = vec![format!("remove it, or set `model` to {models}")];
+        self.report(ProblemKind::Conflict, message, span, help);
+    }
+
+    fn wrong_dimension(
+        &mut self,
+        rules: &'static TableRules,
+        key: &SceneKey,
+        dimension: Dimension,
+        span: Span,
+    ) {
         let message = format!(
             "`{}` does not exist in {} dimensions",
             key.name,
             dimension.axes()
         );
-        let twin = schema::keys(key.section)
+        let twin = rules
+            .keys
+            .iter()
             .find(|other| other.kind == key.kind && other.only == Some(dimension));
         let help = match twin {
             Some(twin) => format!(
@@ -103,27 +152,31 @@ impl Checker<'_> {
         self.report(ProblemKind::Conflict, message, span, vec![help]);
     }
 
-    fn value(&mut self, key: &Key, node: &Node) {
+    fn value(&mut self, key: &SceneKey, node: &Node) {
         match (key.kind, &node.value) {
-            (Kind::Text, Value::Text(_)) => {}
-            (Kind::Choice(words), Value::Text(word)) => self.choice(key, words, word, node.span),
-            (Kind::Dimension, Value::Integer(2 | 3)) => {}
-            (Kind::Dimension, Value::Integer(n)) => {
+            (ValueType::Text, WrittenValue::Text(_)) => {}
+            (ValueType::Choice(words), WrittenValue::Text(word)) => {
+                self.choice(key, words, word, node.span)
+            }
+            (ValueType::Dimension, WrittenValue::Integer(2 | 3)) => {}
+            (ValueType::Dimension, WrittenValue::Integer(n)) => {
                 let message = format!("`dimension` is {n}");
                 let help = vec!["allowed: 2 or 3".to_owned()];
                 self.report(ProblemKind::OutOfRange, message, node.span, help);
             }
-            (Kind::Number, Value::Integer(_) | Value::Float(_)) => self.number(key, node),
-            (Kind::Whole, Value::Integer(_)) => self.number(key, node),
-            (Kind::Vector, Value::List(list)) => self.vector(key, list, node.span),
-            (Kind::Rotation, _) => self.rotation(key, node),
-            (Kind::Matrix, Value::List(rows)) => self.matrix(key, rows, node.span),
-            (Kind::Points, Value::List(points)) => self.points(key, points, node.span),
-            (Kind::Table(section), Value::Table(table)) => self.table(table, section),
-            (Kind::Tables(section), Value::List(list)) => {
+            (ValueType::Number, WrittenValue::Integer(_) | WrittenValue::Float(_)) => {
+                self.number(key, node)
+            }
+            (ValueType::Whole, WrittenValue::Integer(_)) => self.number(key, node),
+            (ValueType::Vector, WrittenValue::List(list)) => self.vector(key, list, node.span),
+            (ValueType::Rotation, _) => self.rotation(key, node),
+            (ValueType::Matrix, WrittenValue::List(rows)) => self.matrix(key, rows, node.span),
+            (ValueType::Corners, WrittenValue::List(points)) => self.points(key, points, node.span),
+            (ValueType::Table(rules), WrittenValue::Table(table)) => self.table(table, rules),
+            (ValueType::Tables(rules), WrittenValue::List(list)) => {
                 for element in list {
                     match &element.value {
-                        Value::Table(table) => self.table(table, section),
+                        WrittenValue::Table(table) => self.table(table, rules),
                         _ => self.wrong_type(key, element, "a table", Vec::new()),
                     }
                 }
@@ -135,7 +188,7 @@ impl Checker<'_> {
         }
     }
 
-    fn wrong_type(&mut self, key: &Key, node: &Node, expected: &str, help: Vec<String>) {
+    fn wrong_type(&mut self, key: &SceneKey, node: &Node, expected: &str, help: Vec<String>) {
         let message = format!(
             "`{}`: expected {expected}, found {}",
             key.name,
@@ -145,56 +198,53 @@ impl Checker<'_> {
     }
 
     /// What a key wants, and what to tell someone who wrote something else.
-    fn expectation(&self, key: &Key, node: &Node) -> (String, Vec<String>) {
+    fn expectation(&self, key: &SceneKey, node: &Node) -> (String, Vec<String>) {
         let axes = self.dimension.map_or(2, Dimension::axes);
         match key.kind {
-            Kind::Text => ("a string".to_owned(), Vec::new()),
-            Kind::Choice(words) => (
+            ValueType::Text => ("a string".to_owned(), Vec::new()),
+            ValueType::Choice(words) => (
                 "a word in quotation marks".to_owned(),
                 vec![format!("allowed: {}", quoted(words, "or"))],
             ),
-            Kind::Dimension => ("2 or 3".to_owned(), Vec::new()),
-            Kind::Whole => (in_unit("a whole number", key), allowed(key)),
-            Kind::Number | Kind::Rotation => (in_unit("a number", key), allowed(key)),
-            Kind::Vector => (
+            ValueType::Dimension => ("2 or 3".to_owned(), Vec::new()),
+            ValueType::Whole => (in_unit("a whole number", key), allowed(key)),
+            ValueType::Number | ValueType::Rotation => (in_unit("a number", key), allowed(key)),
+            ValueType::Vector => (
                 in_unit(&format!("{axes} numbers"), key),
                 vec![format!("write `{} = [{}]`", key.name, example(axes))],
             ),
-            Kind::Matrix => (
+            ValueType::Matrix => (
                 in_unit(&format!("{axes} rows of {axes} numbers"), key),
                 Vec::new(),
             ),
-            Kind::Points => (in_unit("a list of points", key), Vec::new()),
-            Kind::Table(inner) => (
-                "a table".to_owned(),
-                match (&node.value, inner) {
-                    (
-                        Value::List(_),
-                        Section::Fluid | Section::Gravity | Section::Wall | Section::Output,
-                    ) => {
-                        vec![format!("write {} in single brackets", inner.title())]
-                    }
-                    _ => {
-                        let names: Vec<String> = schema::keys(inner)
-                            .filter(|key| key.only.is_none() || key.only == self.dimension)
-                            .map(|key| format!("`{}`", key.name))
-                            .collect();
-                        vec![format!("its keys are {}", listed(&names, "and"))]
-                    }
-                },
-            ),
-            Kind::Tables(Section::Region) => (
+            ValueType::Corners => (in_unit("a list of points", key), Vec::new()),
+            ValueType::Table(inner) => ("a table".to_owned(), self.table_help(node, inner)),
+            ValueType::Tables(inner) if *inner == REGION => (
                 "an array of tables".to_owned(),
                 vec!["write `[[region]]` in double brackets, once for each region".to_owned()],
             ),
-            Kind::Tables(_) => (
+            ValueType::Tables(_) => (
                 "an array of shapes".to_owned(),
                 vec![format!("write `{} = [{{ … }}, {{ … }}]`", key.name)],
             ),
         }
     }
 
-    fn choice(&mut self, key: &Key, words: &[&str], word: &str, span: Span) {
+    /// What to tell someone who wrote something else than a table.
+    fn table_help(&self, node: &Node, inner: &TableRules) -> Vec<String> {
+        if inner.form == Form::Header && matches!(node.value, WrittenValue::List(_)) {
+            return vec![format!("write {} in single brackets", inner.title)];
+        }
+        let names: Vec<String> = inner
+            .keys
+            .iter()
+            .filter(|key| key.exists_in(self.dimension))
+            .map(|key| format!("`{}`", key.name))
+            .collect();
+        vec![format!("its keys are {}", listed(&names, "and"))]
+    }
+
+    fn choice(&mut self, key: &SceneKey, words: &[&str], word: &str, span: Span) {
         if words.contains(&word) {
             return;
         }
@@ -208,7 +258,7 @@ impl Checker<'_> {
     }
 
     /// Checks one number of a key, alone or inside a vector.
-    fn number(&mut self, key: &Key, node: &Node) {
+    fn number(&mut self, key: &SceneKey, node: &Node) {
         let Some(x) = number(node) else {
             let expected = in_unit("a number", key);
             return self.wrong_type(key, node, &expected, allowed(key));
@@ -229,7 +279,7 @@ impl Checker<'_> {
         self.report(ProblemKind::OutOfRange, message, node.span, allowed(key));
     }
 
-    fn vector(&mut self, key: &Key, list: &[Node], span: Span) {
+    fn vector(&mut self, key: &SceneKey, list: &[Node], span: Span) {
         if let Some(dimension) = self.dimension
             && list.len() != dimension.axes()
         {
@@ -240,15 +290,15 @@ impl Checker<'_> {
         }
     }
 
-    fn length(&mut self, key: &Key, what: &str, expected: usize, found: usize, span: Span) {
+    fn length(&mut self, key: &SceneKey, what: &str, expected: usize, found: usize, span: Span) {
         let message = format!("`{}`: expected {expected} {what}, found {found}", key.name);
         let help = vec![format!("the scene has `dimension = {expected}`")];
         self.report(ProblemKind::WrongType, message, span, help);
     }
 
-    fn rotation(&mut self, key: &Key, node: &Node) {
+    fn rotation(&mut self, key: &SceneKey, node: &Node) {
         match (self.dimension, &node.value) {
-            (Some(Dimension::Three) | None, Value::List(list)) => {
+            (Some(Dimension::Three) | None, WrittenValue::List(list)) => {
                 self.vector(key, list, node.span);
             }
             (Some(Dimension::Three), _) => {
@@ -263,7 +313,7 @@ impl Checker<'_> {
         }
     }
 
-    fn matrix(&mut self, key: &Key, rows: &[Node], span: Span) {
+    fn matrix(&mut self, key: &SceneKey, rows: &[Node], span: Span) {
         if let Some(dimension) = self.dimension
             && rows.len() != dimension.axes()
         {
@@ -271,13 +321,13 @@ impl Checker<'_> {
         }
         for row in rows {
             match &row.value {
-                Value::List(numbers) => self.vector(key, numbers, row.span),
+                WrittenValue::List(numbers) => self.vector(key, numbers, row.span),
                 _ => self.wrong_type(key, row, "a row of numbers", Vec::new()),
             }
         }
     }
 
-    fn points(&mut self, key: &Key, points: &[Node], span: Span) {
+    fn points(&mut self, key: &SceneKey, points: &[Node], span: Span) {
         if points.len() < 3 {
             let message = format!(
                 "`{}`: expected at least 3 points, found {}",
@@ -288,14 +338,14 @@ impl Checker<'_> {
         }
         for point in points {
             match &point.value {
-                Value::List(numbers) => self.vector(key, numbers, point.span),
+                WrittenValue::List(numbers) => self.vector(key, numbers, point.span),
                 _ => self.wrong_type(key, point, "a point [x, y]", Vec::new()),
             }
         }
     }
 }
 
-fn in_unit(what: &str, key: &Key) -> String {
+fn in_unit(what: &str, key: &SceneKey) -> String {
     if key.unit.is_empty() {
         what.to_owned()
     } else {
@@ -312,7 +362,7 @@ fn example(axes: usize) -> &'static str {
 }
 
 /// The range and unit of a key, as help.
-fn allowed(key: &Key) -> Vec<String> {
+fn allowed(key: &SceneKey) -> Vec<String> {
     let range = match key.range {
         Range::Any => in_unit("any finite number", key),
         range if key.unit.is_empty() => range.to_string(),

@@ -27,7 +27,8 @@ pub enum SceneError {
     },
     /// There is no such file.
     #[error(
-        "error: the scene file `{path}` does not exist\nhelp: `loschmidt scenes` lists the scenes that need no file"
+        "error: the scene file `{path}` does not exist\nhelp: `loschmidt scenes` lists the \
+         scenes that need no file"
     )]
     NotFound {
         /// The path as it was given.
@@ -50,7 +51,8 @@ pub enum SceneError {
     },
     /// The file is not text.
     #[error(
-        "error: the scene file `{path}` is not UTF-8 text: line {line} holds other bytes\nhelp: save it as UTF-8"
+        "error: the scene file `{path}` is not UTF-8 text: line {line} holds other bytes\nhelp: \
+         save it as UTF-8"
     )]
     NotUtf8 {
         /// The path as it was given.
@@ -60,7 +62,9 @@ pub enum SceneError {
     },
     /// The regions hold no fluid particle.
     #[error(
-        "error: scene `{scene}` has no fluid particle at a particle spacing of {particle_spacing:?} m\nhelp: a fluid region must hold at least one node of its lattice, the first of which lies half a spacing inside its lower corner"
+        "error: scene `{scene}` has no fluid particle at a particle spacing of \
+         {particle_spacing:?} m\nhelp: a fluid region must hold at least one node of its \
+         lattice, the first of which lies half a spacing inside its lower corner"
     )]
     NoFluid {
         /// Name of the scene.
@@ -70,7 +74,8 @@ pub enum SceneError {
     },
     /// The initial state correction found no positions of equal density.
     #[error(
-        "error: scene `{scene}`: {reason}\nhelp: set `density_correction` to \"constant\", or change the lattice or the shape of the fluid"
+        "error: scene `{scene}`: {reason}\nhelp: set `density_correction` to \"constant\", or \
+         change the lattice or the shape of the fluid"
     )]
     NotCorrected {
         /// Name of the scene.
@@ -80,7 +85,17 @@ pub enum SceneError {
         reason: NotConverged,
     },
     /// Two particles start on one point, or much nearer than a spacing.
-    #[error("error: two particles of scene `{scene}` lie on or almost on one point, ({})\n  region {}: {}\n  region {}: {}\nhelp: regions may touch but not overlap: subtract one shape from the other with `difference`", coordinates(.point), .first.0, .first.1, .second.0, .second.1)]
+    #[error(
+        "error: two particles of scene `{scene}` lie on or almost on one point, ({})\n  \
+         region {}: {}\n  region {}: {}\n\
+         help: regions may touch but not overlap: \
+         subtract one shape from the other with `difference`",
+        coordinates(.point),
+        .first.0,
+        .first.1,
+        .second.0,
+        .second.1
+    )]
     Coincident {
         /// Name of the scene.
         scene: String,
@@ -93,7 +108,8 @@ pub enum SceneError {
     },
     /// More particles than 32-bit indices can hold.
     #[error(
-        "error: scene `{scene}` would have about {particles} particles; at most {limit} are possible\nhelp: raise `particle_spacing`, which is {particle_spacing:?} m"
+        "error: scene `{scene}` would have about {particles} particles; at most {limit} are \
+         possible\nhelp: raise `particle_spacing`, which is {particle_spacing:?} m"
     )]
     TooManyParticles {
         /// Name of the scene.
@@ -107,7 +123,9 @@ pub enum SceneError {
     },
     /// A shape whose parts lie so far apart that its bounds cannot be searched.
     #[error(
-        "error: the shape of region {region} of scene `{scene}` spreads over {nodes} lattice nodes, too many to search\nhelp: give every part of the shape its own `[[region]]`, or raise `particle_spacing`"
+        "error: the shape of region {region} of scene `{scene}` spreads over {nodes} lattice \
+         nodes, too many to search\nhelp: give every part of the shape its own `[[region]]`, or \
+         raise `particle_spacing`"
     )]
     TooSparse {
         /// Name of the scene.
@@ -119,7 +137,9 @@ pub enum SceneError {
     },
     /// So far from the origin that neighbouring lattice nodes round to one number.
     #[error(
-        "error: region {region} of scene `{scene}` reaches {reach:?} m from the origin, too far for a particle spacing of {particle_spacing:?} m: rounding would bend its lattice\nhelp: move the scene towards the origin or raise `particle_spacing`"
+        "error: region {region} of scene `{scene}` reaches {reach:?} m from the origin, too far \
+         for a particle spacing of {particle_spacing:?} m: rounding would bend its lattice\n\
+         help: move the scene towards the origin or raise `particle_spacing`"
     )]
     TooFar {
         /// Name of the scene.

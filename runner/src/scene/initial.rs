@@ -1,29 +1,32 @@
 //! From a scene to its particles: lattice nodes inside the regions, with first velocities.
 //!
-//! Every fluid region has its own lattice, which starts half a pitch inside the lower
-//! corner of the region's bounds (a spiral: in their middle). Walls continue the lattice of the first fluid region.
-//! Particles are ordered region after region in file order, and in a region x fastest,
-//! then y, then z; that order gives the particles their ids. Where the scene asks for it, the
-//! fluid is then moved by the initial state correction (see [`isc`](crate::isc)), and has its first
+//! Every fluid region has its own lattice, which starts half a pitch inside the lower corner of the
+//! region's bounds (a spiral: in their middle). Walls continue the lattice of the first fluid
+//! region. Particles are ordered region after region in file order, and in a region x fastest, then
+//! y, then z; that order gives the particles their ids. Where the scene asks for it, the fluid is
+//! then moved by the initial state correction (see [`isc`](crate::isc)), and has its first
 //! velocities where it was moved to.
 
 use super::error::SceneError;
+use super::filling::visit;
+use super::geometry::{AxisBox, Vector3, around_both, grown, overlap};
 use super::lattice::Lattice;
-use super::shape::{Bounds, Point, Shape, overlap};
-use super::types::{
-    DensityCorrection, Dimension, LatticeKind, Region, RegionKind, Scene, WallModel,
-};
+use super::region::Region;
+use super::shape::Shape;
+use super::types::Scene;
+use super::wcsph::{DensityCorrection, WallModel};
+use super::words::{Dimension, LatticeKind, RegionKind};
 use crate::isc;
 
 /// The particles at time zero; z is 0 in two dimensions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InitialState {
     /// Positions of the fluid particles in the order of their ids, m.
-    pub fluid: Vec<Point>,
+    pub fluid: Vec<Vector3>,
     /// Velocities of the fluid particles, m/s; as many as there are positions.
-    pub fluid_velocity: Vec<Point>,
+    pub fluid_velocity: Vec<Vector3>,
     /// Positions of the wall particles, m.
-    pub wall: Vec<Point>,
+    pub wall: Vec<Vector3>,
 }
 
 /// The most particles of a scene: their numbers fit into 32 bits with one to spare.
@@ -76,9 +79,9 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError::NoFluid`], [`SceneError::TooManyParticles`],
-    /// [`SceneError::TooFar`], [`SceneError::TooSparse`], and [`SceneError::Coincident`] when particles of two
-    /// regions lie on one point or nearly so; [`SceneError::NotCorrected`] when the initial state
-    /// correction does not converge.
+    /// [`SceneError::TooFar`], [`SceneError::TooSparse`], and [`SceneError::Coincident`] when
+    /// particles of two regions lie on one point or nearly so; [`SceneError::NotCorrected`] when
+    /// the initial state correction does not converge.
     pub fn initial_state(&self) -> Result<InitialState, SceneError> {
         let no_fluid = || SceneError::NoFluid {
             scene: self.name.clone(),
@@ -103,14 +106,14 @@ impl Scene {
                 RegionKind::Wall => &mut state.wall,
             };
             let before = points.len();
-            lattice.visit(&region.shape, |point| points.push(point));
+            visit(&lattice, &region.shape, |point| points.push(point));
             placed.push((number, region.kind, before));
         }
         if state.fluid.is_empty() {
             return Err(no_fluid());
         }
         self.refuse_overlap(&state, &placed)?;
-        if self.density_correction == DensityCorrection::Isc {
+        if self.water.density_correction == DensityCorrection::Isc {
             self.correct(&mut state)?;
         }
         self.set_velocities(&mut state, &placed);
@@ -133,9 +136,9 @@ impl Scene {
         }
     }
 
-    /// The settings of the initial state correction of this scene. Spirals are not so symmetric that
-    /// they would have to be disturbed first, and are moved in short steps, which leave them in order:
-    /// on the Gresho vortex disorder is noise.
+    /// The settings of the initial state correction of this scene. Spirals are not so symmetric
+    /// that they would have to be disturbed first, and are moved in short steps, which leave them
+    /// in order: on the Gresho vortex disorder is noise.
     #[must_use]
     pub fn correction(&self) -> isc::Settings {
         let settings = isc::Settings::new(
@@ -160,7 +163,7 @@ impl Scene {
 
     /// Moves the particles until their summed densities are the reference density: the fluid, and
     /// dummy walls with it, which belong to the density and whose outer face is a free surface too.
-    fn correct(&self, state: &mut InitialState) -> Result<isc::Report, SceneError> {
+    fn correct(&self, state: &mut InitialState) -> Result<isc::Convergence, SceneError> {
         match self.dimension {
             Dimension::Two => self.correct_in::<2>(state),
             Dimension::Three => self.correct_in::<3>(state),
@@ -170,11 +173,11 @@ impl Scene {
     fn correct_in<const D: usize>(
         &self,
         state: &mut InitialState,
-    ) -> Result<isc::Report, SceneError> {
-        let first = |x: &Point| -> [f64; D] { std::array::from_fn(|d| x[d]) };
+    ) -> Result<isc::Convergence, SceneError> {
+        let first = |x: &Vector3| -> [f64; D] { std::array::from_fn(|d| x[d]) };
         let mut moved: Vec<[f64; D]> = state.fluid.iter().map(first).collect();
         // Other walls take no part in the density.
-        if self.wall_model == WallModel::Dummy {
+        if self.water.wall_model == WallModel::Dummy {
             moved.extend(state.wall.iter().map(first));
         }
         let report = isc::correct(&mut moved, &self.correction(), |_, _| {});
@@ -191,7 +194,7 @@ impl Scene {
 
     /// The regions that hold particles, with their numbers in file order.
     fn filled_regions(&self) -> impl Iterator<Item = (usize, &Region)> {
-        let walls = self.wall_model != WallModel::None;
+        let walls = self.water.wall_model != WallModel::None;
         self.regions
             .iter()
             .enumerate()
@@ -280,7 +283,7 @@ impl Scene {
         state: &InitialState,
         placed: &[(usize, RegionKind, usize)],
     ) -> Result<(), SceneError> {
-        let mut groups: Vec<(usize, &[Point])> = Vec::new();
+        let mut groups: Vec<(usize, &[Vector3])> = Vec::new();
         for (position, &(number, kind, start)) in placed.iter().enumerate() {
             let all = match kind {
                 RegionKind::Fluid => &state.fluid,
@@ -336,7 +339,7 @@ fn estimate(lattice: Lattice, shape: &Shape) -> u64 {
         return nodes as u64;
     }
     let mut count = 0_u64;
-    coarse.visit(shape, |_| count += 1);
+    visit(&coarse, shape, |_| count += 1);
     let power = if shape.is_thin() { axes - 1 } else { axes };
     (0..power).fold(count, |count, _| count.saturating_mul(coarser))
 }
@@ -345,17 +348,17 @@ fn estimate(lattice: Lattice, shape: &Shape) -> u64 {
 ///
 /// The points of `b` are sorted into cubes of the distance that is allowed; what is too near to a
 /// point lies in its cube or in one of those around.
-fn too_near(a: &[Point], b: &[Point], spacing: f64, axes: usize) -> Option<Point> {
+fn too_near(a: &[Vector3], b: &[Vector3], spacing: f64, axes: usize) -> Option<Vector3> {
     let near = TOO_NEAR * spacing;
-    let common = overlap(grown(bounds(a)?, near), grown(bounds(b)?, near))?;
-    let inside = |p: &&Point| (0..axes).all(|k| common.0[k] <= p[k] && p[k] <= common.1[k]);
-    let cube = |p: &Point| -> [i64; 3] {
+    let common = overlap(grown(bounds(a)?, [near; 3]), grown(bounds(b)?, [near; 3]))?;
+    let inside = |p: &&Vector3| (0..axes).all(|k| common.0[k] <= p[k] && p[k] <= common.1[k]);
+    let cube = |p: &Vector3| -> [i64; 3] {
         std::array::from_fn(|k| ((p[k] - common.0[k]) / near).floor() as i64)
     };
-    let mut sorted: Vec<([i64; 3], &Point)> =
+    let mut sorted: Vec<([i64; 3], &Vector3)> =
         b.iter().filter(inside).map(|p| (cube(p), p)).collect();
     sorted.sort_unstable_by_key(|(cube, _)| *cube);
-    let is_near = |p: &Point, q: &Point| {
+    let is_near = |p: &Vector3, q: &Vector3| {
         let square: f64 = (0..axes).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum();
         square < near * near
     };
@@ -377,15 +380,9 @@ fn too_near(a: &[Point], b: &[Point], spacing: f64, axes: usize) -> Option<Point
         .copied()
 }
 
-fn bounds(points: &[Point]) -> Option<Bounds> {
-    points.iter().map(|&point| (point, point)).reduce(|a, b| {
-        (
-            std::array::from_fn(|k| a.0[k].min(b.0[k])),
-            std::array::from_fn(|k| a.1[k].max(b.1[k])),
-        )
-    })
-}
-
-fn grown((min, max): Bounds, by: f64) -> Bounds {
-    (min.map(|x| x - by), max.map(|x| x + by))
+fn bounds(points: &[Vector3]) -> Option<AxisBox> {
+    points
+        .iter()
+        .map(|&point| (point, point))
+        .reduce(around_both)
 }

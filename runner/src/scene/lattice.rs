@@ -2,13 +2,13 @@
 //!
 //! A node's coordinate is origin + (i + 1/2) * pitch, computed from its integer index and
 //! not from its neighbour's coordinate: nothing accumulates, and a region and the wall
-//! around it agree on every bit. Only `+` and `*` are used, and for the spiral square root, sine and
-//! cosine of `libm`.
+//! around it agree on every bit. Only `+` and `*` are used, and for the spiral the square root,
+//! sine and cosine of `libm`.
 //!
 //! Vogel's spiral: node n at r = s ((n + 1/2)/π)^(1/2) and the n-th multiple of the golden angle
 //! 2π (1 - 1/φ), so that n nodes fill the area n s². (H. Vogel, Math. Biosci. 44 (1979) 179.)
 
-use super::shape::{Bounds, Point, Shape};
+use super::geometry::{AxisBox, Vector3};
 use super::words::{Dimension, LatticeKind};
 use std::f64::consts::PI;
 
@@ -22,8 +22,8 @@ const HEXAGONAL_PITCH: f64 = 1.074_569_931_823_542;
 /// Distance of the rows of a hexagonal lattice, in spacings: sqrt(sqrt(3) / 2).
 const HEXAGONAL_ROW: f64 = 0.930_604_859_102_099_6;
 
-/// Edge of the cubes of a body-centred lattice, in spacings: the cube root of 2, since there are two
-/// particles in each.
+/// Edge of the cubes of a body-centred lattice, in spacings: the cube root of 2, since there are
+/// two particles in each.
 const BODY_CENTRED_EDGE: f64 = 1.259_921_049_894_873_2;
 
 /// The golden angle as a part of a turn: 1 - 1/φ = (3 - sqrt(5))/2.
@@ -34,7 +34,7 @@ const GOLDEN_TURN: f64 = 0.381_966_011_250_105_15;
 pub(super) struct Lattice {
     pub kind: LatticeKind,
     /// The corner half a pitch below node 0 along every axis, m; of a spiral the middle.
-    pub origin: Point,
+    pub origin: Vector3,
     /// Particle spacing, m.
     pub spacing: f64,
 }
@@ -48,7 +48,7 @@ impl Lattice {
     }
 
     /// Distance of neighbouring nodes along each axis, m.
-    fn pitch(&self) -> Point {
+    fn pitch(&self) -> Vector3 {
         let s = self.spacing;
         match self.kind {
             LatticeKind::Square | LatticeKind::Cubic | LatticeKind::Vogel => [s, s, s],
@@ -61,7 +61,7 @@ impl Lattice {
     }
 
     /// The point of a node, m.
-    pub fn node(&self, index: Index) -> Point {
+    pub fn node(&self, index: Index) -> Vector3 {
         if self.kind == LatticeKind::Vogel {
             return self.spiral(index[0]);
         }
@@ -86,7 +86,7 @@ impl Lattice {
     }
 
     /// Node n of the spiral.
-    fn spiral(&self, n: i64) -> Point {
+    pub fn spiral(&self, n: i64) -> Vector3 {
         let r = self.spacing * libm::sqrt((n as f64 + 0.5) / PI);
         // Whole turns are taken off while they can be told apart.
         let turns = n as f64 * GOLDEN_TURN;
@@ -97,7 +97,7 @@ impl Lattice {
     }
 
     /// The number of nodes of a spiral that reaches every corner of a box.
-    fn spiral_nodes(&self, bounds: Bounds) -> f64 {
+    fn spiral_nodes(&self, bounds: AxisBox) -> f64 {
         let mut r2 = 0.0;
         for k in 0..2 {
             let far = (bounds.0[k] - self.origin[k])
@@ -110,7 +110,7 @@ impl Lattice {
 
     /// The rows of a hexagonal lattice alternate, as do the layers of a body-centred one; those of
     /// the others are alike.
-    fn parity(&self, index: Index) -> usize {
+    pub fn parity(&self, index: Index) -> usize {
         let row = match self.kind {
             LatticeKind::Hexagonal => index[1],
             LatticeKind::BodyCentred => index[2],
@@ -120,7 +120,7 @@ impl Lattice {
     }
 
     /// The number of nodes in a box, for a decision whether to visit them.
-    pub fn nodes_within(&self, bounds: Bounds) -> f64 {
+    pub fn nodes_within(&self, bounds: AxisBox) -> f64 {
         if self.kind == LatticeKind::Vogel {
             return self.spiral_nodes(bounds);
         }
@@ -131,7 +131,7 @@ impl Lattice {
     }
 
     /// The lowest and one above the highest index of all nodes in a box and a few around it.
-    fn extent(&self, bounds: Bounds) -> (Index, Index) {
+    pub fn extent(&self, bounds: AxisBox) -> (Index, Index) {
         if self.kind == LatticeKind::Vogel {
             // The conversion saturates.
             return (
@@ -159,167 +159,5 @@ impl Lattice {
             }
         };
         (std::array::from_fn(low), std::array::from_fn(high))
-    }
-
-    /// Visits the nodes of a shape, x fastest, then y, then z.
-    pub fn visit(&self, shape: &Shape, mut visitor: impl FnMut(Point)) {
-        let Some(bounds) = shape.bounds(self.spacing) else {
-            return;
-        };
-        let (low, high) = self.extent(bounds);
-        let reaches = shape.reaches();
-        let grid = Grid {
-            lattice: *self,
-            around: if self.kind == LatticeKind::Vogel {
-                Around::Spiral(Spiral::new(self, high[0], &reaches))
-            } else {
-                let stencils = reaches.into_iter().map(|reach| Stencil::new(self, reach));
-                Around::Lattice(stencils.collect())
-            },
-        };
-        for k in low[2]..high[2] {
-            for j in low[1]..high[1] {
-                for i in low[0]..high[0] {
-                    if shape.contains(&grid, [i, j, k]) {
-                        visitor(self.node([i, j, k]));
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// A lattice with the neighbourhoods that the layers of a shape ask for.
-pub(super) struct Grid {
-    pub lattice: Lattice,
-    around: Around,
-}
-
-/// How neighbours are found.
-enum Around {
-    /// By the offsets of their indices.
-    Lattice(Vec<Stencil>),
-    /// By their places.
-    Spiral(Spiral),
-}
-
-impl Grid {
-    /// Whether `test` holds for a node within `reach` spacings of `index`.
-    pub fn any_neighbour(&self, index: Index, reach: f64, test: impl Fn(Index) -> bool) -> bool {
-        let stencils = match &self.around {
-            Around::Lattice(stencils) => stencils,
-            Around::Spiral(spiral) => {
-                return spiral.any_neighbour(&self.lattice, index, reach, test);
-            }
-        };
-        let stencil = stencils.iter().find(|stencil| stencil.reach == reach);
-        stencil.is_some_and(|stencil| {
-            stencil.offsets[self.lattice.parity(index)]
-                .iter()
-                .any(|offset| test(std::array::from_fn(|k| index[k] + offset[k])))
-        })
-    }
-}
-
-/// The offsets to all nodes within a distance, nearest first, for even and odd rows.
-struct Stencil {
-    /// The distance in spacings.
-    reach: f64,
-    offsets: [Vec<Index>; 2],
-}
-
-impl Stencil {
-    fn new(lattice: &Lattice, reach: f64) -> Self {
-        let unit = Lattice {
-            origin: [0.0; 3],
-            spacing: 1.0,
-            ..*lattice
-        };
-        // The rows of every lattice are at least 0.9 spacings apart, but for the layers of a
-        // body-centred one.
-        let apart = match lattice.kind {
-            LatticeKind::BodyCentred => 0.6,
-            _ => 0.9,
-        };
-        let steps = (reach / apart).ceil() as i64;
-        let deep = match lattice.dimension() {
-            Dimension::Two => 0,
-            Dimension::Three => steps,
-        };
-        let around = |row: i64| {
-            let from = unit.node([0, row, row]);
-            let mut near = Vec::new();
-            for k in -deep..=deep {
-                for j in -steps..=steps {
-                    for i in -steps..=steps {
-                        let to = unit.node([i, row + j, row + k]);
-                        let d = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-                        let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-                        if squared <= reach * reach {
-                            near.push((squared, [i, j, k]));
-                        }
-                    }
-                }
-            }
-            near.sort_by(|a, b| a.0.total_cmp(&b.0));
-            near.into_iter().map(|(_, offset)| offset).collect()
-        };
-        Self {
-            reach,
-            offsets: [around(0), around(1)],
-        }
-    }
-}
-
-/// The nodes of a spiral, sorted into squares.
-struct Spiral {
-    /// Edge of the squares, m.
-    edge: f64,
-    /// Squares and the nodes in them.
-    nodes: Vec<([i64; 2], i64)>,
-}
-
-impl Spiral {
-    /// The first `count` nodes; none where no layer looks for neighbours.
-    fn new(lattice: &Lattice, count: i64, reaches: &[f64]) -> Self {
-        let edge = lattice.spacing * reaches.iter().fold(1.0, |a: f64, b| a.max(*b));
-        let count = if reaches.is_empty() { 0 } else { count };
-        let mut spiral = Self {
-            edge,
-            nodes: Vec::new(),
-        };
-        let squares = (0..count).map(|n| (spiral.square(&lattice.spiral(n)), n));
-        spiral.nodes = squares.collect();
-        spiral.nodes.sort_unstable();
-        spiral
-    }
-
-    fn square(&self, x: &Point) -> [i64; 2] {
-        std::array::from_fn(|k| (x[k] / self.edge).floor() as i64)
-    }
-
-    fn any_neighbour(
-        &self,
-        lattice: &Lattice,
-        index: Index,
-        reach: f64,
-        test: impl Fn(Index) -> bool,
-    ) -> bool {
-        let x = lattice.spiral(index[0]);
-        let home = self.square(&x);
-        let limit = reach * lattice.spacing;
-        let is_near = |n: i64| {
-            let y = lattice.spiral(n);
-            let d = [y[0] - x[0], y[1] - x[1]];
-            d[0] * d[0] + d[1] * d[1] <= limit * limit
-        };
-        (0..9).any(|k| {
-            let square = [home[0] + k % 3 - 1, home[1] + k / 3 - 1];
-            let start = self.nodes.partition_point(|(s, _)| *s < square);
-            self.nodes[start..]
-                .iter()
-                .take_while(|(s, _)| *s == square)
-                .any(|&(_, n)| is_near(n) && test([n, 0, 0]))
-        })
     }
 }

@@ -5,9 +5,11 @@
 //!        --check, build--> Scene (validated, SI) --initial_state--> InitialState (f64)
 //! ```
 //!
-//! The keys, their units, ranges, defaults and meanings are one table, `schema::KEYS`;
-//! [`Scene::to_toml`] prints a scene with all of them as comments. Every mistake of a
-//! text is reported, each with file, line, caret and help, in one [`SceneError`].
+//! Each key is declared once, with its type, unit, range, default and meaning (module `declare`):
+//! those of every scene in `types`, `forces`, `step` and `region_keys`, those of the weakly
+//! compressible models in `wcsph`; `model` is the table of models. [`Scene::to_toml`] prints a
+//! scene with all keys, unit and meaning beside each. Every mistake of a text is reported, each
+//! with file, line, caret and help, in one [`SceneError`].
 //!
 //! The initial state is the same bit for bit on every machine: node coordinates,
 //! membership in shapes and velocities use `+ - * /` and comparisons alone, and every
@@ -32,34 +34,48 @@
 //! ```
 
 mod build;
+mod builder;
 mod catalogue;
 mod check;
+mod declare;
 mod error;
+mod filling;
+mod forces;
+mod geometry;
 mod initial;
 mod lattice;
+mod model;
 mod nearest;
 mod overrides;
+mod page;
 pub mod preset;
 mod print;
+mod region;
+mod region_keys;
 mod regions;
 mod schema;
 mod shape;
 mod source;
 mod spec;
+mod step;
 mod types;
 mod values;
+mod wcsph;
 mod words;
 
 pub use catalogue::{CatalogueEntry, catalogue};
 pub use error::{Line, Place, Problem, ProblemKind, Problems, SceneError};
+pub use forces::{CentralGravity, Gravity};
+pub use geometry::Vector3;
 pub use initial::InitialState;
-pub use shape::{Point, Shape};
+pub use model::Model;
+pub use region::{Region, Velocity};
+pub use shape::Shape;
 pub use source::{Source, resolve};
-pub use types::{
-    CentralGravity, DensityCorrection, Dimension, EquationOfState, Fluid, Gravity, Integrator,
-    LatticeKind, Model, Output, Region, RegionKind, Scene, StepRule, Velocity, WallModel,
-    WallPotential,
-};
+pub use step::StepRule;
+pub use types::{Output, Scene};
+pub use wcsph::{DensityCorrection, EquationOfState, Fluid, WallModel, WallPotential, Water};
+pub use words::{Dimension, Integrator, LatticeKind, RegionKind};
 
 /// Reads a scene, merges the overrides `path=value` into it in their order, and validates
 /// the result.

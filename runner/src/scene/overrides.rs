@@ -9,8 +9,9 @@ use toml_edit::Document;
 
 use super::check::unknown_key;
 use super::error::{Problem, ProblemKind};
-use super::schema::{self, Kind, Section};
-use super::spec::{self, Entry, Node, SceneSpec, Span, Table, Value};
+use super::schema::ValueType;
+use super::spec::{self, Entry, Node, SceneSpec, Span, WrittenTable, WrittenValue};
+use super::types::TOP;
 
 /// The most steps of a path, far beyond any that leads somewhere: the depth of tables
 /// stays bounded whatever is typed.
@@ -142,7 +143,7 @@ fn parse_value(
             }
         }
         Err(_) if !written.trim_start().starts_with(['[', '{', '"', '\'']) => Ok(Some(Node {
-            value: Value::Text(written.trim().to_owned()),
+            value: WrittenValue::Text(written.trim().to_owned()),
             span,
         })),
         Err(error) => Err(Box::new(spec.syntax_problem(number, &error))),
@@ -158,7 +159,7 @@ enum Change {
 type Dead = (String, Span, String);
 
 /// Sets or removes what `path` names.
-fn change(table: &mut Table, path: &[Segment], value: Option<Node>) -> Result<Change, Dead> {
+fn change(table: &mut WrittenTable, path: &[Segment], value: Option<Node>) -> Result<Change, Dead> {
     let Some((first, rest)) = path.split_first() else {
         return Ok(Change::NothingToRemove);
     };
@@ -171,7 +172,7 @@ fn change(table: &mut Table, path: &[Segment], value: Option<Node>) -> Result<Ch
                 name: first.name.to_owned(),
                 key: first.span,
                 node: Node {
-                    value: Value::Table(Table::default()),
+                    value: WrittenValue::Table(WrittenTable::default()),
                     span: first.span,
                 },
             });
@@ -213,8 +214,8 @@ fn change_inside(
     value: Option<Node>,
 ) -> Result<Change, Dead> {
     match &mut node.value {
-        Value::Table(table) => change(table, path, value),
-        Value::List(list) => {
+        WrittenValue::Table(table) => change(table, path, value),
+        WrittenValue::List(list) => {
             let Some((first, rest)) = path.split_first() else {
                 return Ok(Change::NothingToRemove);
             };
@@ -255,24 +256,24 @@ fn change_inside(
 
 /// A removal of nothing is right only when the key exists in the language.
 fn check_path(spec: &SceneSpec, path: &[Segment]) -> Result<(), Box<Problem>> {
-    let mut section = Section::Top;
+    let mut rules = TOP;
     let mut in_list = false;
     for segment in path {
         if in_list && segment.name.parse::<usize>().is_ok() {
             in_list = false;
             continue;
         }
-        match schema::find(section, segment.name).map(|key| key.kind) {
-            Some(Kind::Table(inner)) => section = inner,
-            Some(Kind::Tables(inner)) => {
-                section = inner;
+        match rules.key(segment.name).map(|key| key.kind) {
+            Some(ValueType::Table(inner)) => rules = inner,
+            Some(ValueType::Tables(inner)) => {
+                rules = inner;
                 in_list = true;
             }
             Some(_) => return Ok(()),
             None => {
                 return Err(Box::new(unknown_key(
                     spec,
-                    section,
+                    rules,
                     segment.name,
                     segment.span,
                 )));

@@ -1,44 +1,65 @@
 //! The regions of a scene: shapes, lattices and first velocities.
 
-use super::build::{Builder, Here};
-use super::schema::{self, Section, listed};
+use super::builder::{Builder, Here};
+use super::declare::Keys;
+use super::page::Page;
+use super::print::print_region;
+use super::region::{Region, Velocity};
+use super::region_keys::{
+    BALL, BLOCK, ELLIPSOID, LAYER, POLYGON, REGION, REGIONS, SHAPE, SHELL, VELOCITY,
+};
+use super::schema::{Family, SceneKey, listed};
 use super::shape::Shape;
-use super::spec::{Entry, Value};
-use super::types::{Dimension, LatticeKind, Region, RegionKind, Velocity};
+use super::spec::{Entry, WrittenTable, WrittenValue};
 use super::values::{as_table, elements, number, numbers};
+use super::words::{ChoiceWord, Dimension, LatticeKind, RegionKind};
 
 /// The axes by name, for messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Reads every region.
-pub(super) fn regions<'a>(builder: &mut Builder<'a>, top: Here<'a>) -> Vec<Region> {
-    let Some(entry) = builder.entry(top, "region") else {
-        return Vec::new();
+/// Reports a scene without fluid.
+pub(super) fn require_fluid<'a>(builder: &mut Builder<'a>, top: Here<'a>) {
+    let Some(entry) = top.table.get(REGIONS.name) else {
+        return;
     };
-    let mut regions = Vec::new();
-    for node in elements(&entry.node) {
-        if let Some(table) = as_table(node) {
-            let here = Here {
-                table,
-                span: Some(node.span),
-                section: Section::Region,
-                name: &entry.name,
-            };
-            regions.push(region(builder, here));
-        }
-    }
-    let fluid = regions
-        .iter()
-        .any(|region| region.kind == RegionKind::Fluid);
     // A region of unknown kind counts as fluid: its kind is reported already.
-    if !fluid && matches!(entry.node.value, Value::List(_)) {
+    let is_fluid = |table: &WrittenTable| match table.get("kind").map(|kind| &kind.node.value) {
+        Some(WrittenValue::Text(word)) => RegionKind::from_word(word) != Some(RegionKind::Wall),
+        _ => true,
+    };
+    let mut regions = elements(&entry.node).iter().filter_map(as_table);
+    if matches!(entry.node.value, WrittenValue::List(_)) && !regions.any(is_fluid) {
         builder.missing(
             top,
             "no region is fluid".to_owned(),
             vec!["give at least one `[[region]]` the key `kind = \"fluid\"`".to_owned()],
         );
     }
-    regions
+}
+
+impl Keys for Vec<Region> {
+    const KEYS: &'static [SceneKey] = &[REGIONS];
+    const FAMILY: Option<Family> = None;
+
+    fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Self {
+        let Some(entry) = builder.entry(here, REGIONS.name) else {
+            return Vec::new();
+        };
+        let mut regions = Vec::new();
+        for node in elements(&entry.node) {
+            if let Some(table) = as_table(node) {
+                let here = Here::table(table, node.span, &REGION, &entry.name);
+                regions.push(region(builder, here));
+            }
+        }
+        regions
+    }
+
+    fn print(values: Option<&Self>, page: &mut Page) {
+        for region in values.into_iter().flatten() {
+            print_region(page, region);
+        }
+    }
 }
 
 fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
@@ -61,10 +82,10 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
     }
     let lattice = lattice(builder, here);
     let velocity = builder
-        .inner(here, "velocity", Section::Velocity)
+        .inner(here, "velocity", &VELOCITY)
         .and_then(|inner| velocity(builder, inner));
     let shape = builder
-        .inner(here, "shape", Section::Shape)
+        .inner(here, "shape", &SHAPE)
         .map_or(nothing(), |inner| shape(builder, inner));
     Region {
         kind,
@@ -129,10 +150,13 @@ fn only_one<'a>(
             .table
             .entries
             .iter()
-            .all(|e| schema::find(here.section, &e.name).is_some())
+            .all(|e| here.rules.key(&e.name).is_some())
     {
-        let names: Vec<String> = schema::keys(here.section)
-            .filter(|key| exclusive(key.name) && key.only.is_none_or(|d| d == builder.dimension))
+        let names: Vec<String> = here
+            .rules
+            .keys
+            .iter()
+            .filter(|key| exclusive(key.name) && key.exists_in(Some(builder.dimension)))
             .map(|key| format!("`{}`", key.name))
             .collect();
         let help = format!("one of {}", listed(&names, "or"));
@@ -192,7 +216,7 @@ fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
 
 /// Reads the shape in a table that holds exactly one.
 fn shape<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {
-    let known = |name: &str| schema::find(Section::Shape, name).is_some();
+    let known = |name: &str| SHAPE.key(name).is_some();
     let Some(entry) = only_one(builder, here, "the shape", known) else {
         return nothing();
     };
@@ -206,7 +230,7 @@ fn shape<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {
 
 fn shapes<'a>(builder: &mut Builder<'a>, entry: &'a Entry) -> Vec<Shape> {
     let list = elements(&entry.node);
-    if list.is_empty() && matches!(entry.node.value, Value::List(_)) {
+    if list.is_empty() && matches!(entry.node.value, WrittenValue::List(_)) {
         let help = format!("write `{} = [{{ … }}, {{ … }}]`", entry.name);
         builder.out_of_range(
             format!("`{}` holds no shape", entry.name),
@@ -217,12 +241,7 @@ fn shapes<'a>(builder: &mut Builder<'a>, entry: &'a Entry) -> Vec<Shape> {
     let mut shapes = Vec::new();
     for node in list {
         if let Some(table) = as_table(node) {
-            let here = Here {
-                table,
-                span: Some(node.span),
-                section: Section::Shape,
-                name: &entry.name,
-            };
+            let here = Here::table(table, node.span, &SHAPE, &entry.name);
             shapes.push(shape(builder, here));
         }
     }
@@ -231,47 +250,62 @@ fn shapes<'a>(builder: &mut Builder<'a>, entry: &'a Entry) -> Vec<Shape> {
 
 /// A shape that is described by numbers, or a layer.
 fn primitive<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &str) -> Option<Shape> {
-    let section = match name {
-        "rectangle" | "box" => Section::Block,
-        "circle" | "sphere" => Section::Ball,
-        "ellipse" | "ellipsoid" => Section::Ellipsoid,
-        "annulus" | "shell" => Section::Shell,
-        "polygon" => Section::Polygon,
-        _ => Section::Layer,
-    };
-    let inner = builder.inner(here, name, section)?;
-    Some(match section {
-        Section::Block => block(builder, inner),
-        Section::Ball => Shape::Ball {
-            centre: builder.vector(inner, "centre"),
-            radius: builder.number(inner, "radius"),
-        },
-        Section::Ellipsoid => Shape::Ellipsoid {
-            centre: builder.vector(inner, "centre"),
-            axes: builder.vector(inner, "axes"),
-        },
-        Section::Shell => hollow(builder, inner),
-        Section::Polygon => Shape::Polygon {
-            points: builder
-                .entry(inner, "points")
-                .map_or(&[][..], |entry| elements(&entry.node))
-                .iter()
-                .map(|point| {
-                    let [x, y, _] = numbers(point);
-                    [x, y]
-                })
-                .collect(),
-        },
-        _ => {
-            let around = builder
-                .inner(inner, "around", Section::Shape)
-                .map_or(nothing(), |inner| shape(builder, inner));
-            Shape::Layer {
-                around: Box::new(around),
-                depth: builder.number(inner, "depth"),
+    let mut inner = |rules| builder.inner(here, name, rules);
+    Some(match name {
+        "rectangle" | "box" => {
+            let inner = inner(&BLOCK)?;
+            block(builder, inner)
+        }
+        "circle" | "sphere" => {
+            let inner = inner(&BALL)?;
+            Shape::Ball {
+                centre: builder.vector(inner, "centre"),
+                radius: builder.number(inner, "radius"),
             }
         }
+        "ellipse" | "ellipsoid" => {
+            let inner = inner(&ELLIPSOID)?;
+            Shape::Ellipsoid {
+                centre: builder.vector(inner, "centre"),
+                axes: builder.vector(inner, "axes"),
+            }
+        }
+        "annulus" | "shell" => {
+            let inner = inner(&SHELL)?;
+            hollow(builder, inner)
+        }
+        "polygon" => {
+            let inner = inner(&POLYGON)?;
+            polygon(builder, inner)
+        }
+        _ => {
+            let inner = inner(&LAYER)?;
+            layer(builder, inner)
+        }
     })
+}
+
+fn polygon<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {
+    let corners = builder
+        .entry(here, "points")
+        .map_or(&[][..], |entry| elements(&entry.node));
+    let corner = |node| {
+        let [x, y, _] = numbers(node);
+        [x, y]
+    };
+    Shape::Polygon {
+        points: corners.iter().map(corner).collect(),
+    }
+}
+
+fn layer<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {
+    let around = builder
+        .inner(here, "around", &SHAPE)
+        .map_or(nothing(), |inner| shape(builder, inner));
+    Shape::Layer {
+        around: Box::new(around),
+        depth: builder.number(here, "depth"),
+    }
 }
 
 fn block<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Shape {

@@ -26,22 +26,22 @@ impl Span {
 /// A value and where it stands.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    pub value: Value,
+    pub value: WrittenValue,
     pub span: Span,
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(super) enum WrittenValue {
     Text(String),
     Integer(i64),
     Float(f64),
     Boolean,
     Date,
     List(Vec<Node>),
-    Table(Table),
+    Table(WrittenTable),
 }
 
-impl Value {
+impl WrittenValue {
     /// How a message names the type of the value.
     pub fn type_name(&self) -> &'static str {
         match self {
@@ -58,7 +58,7 @@ impl Value {
 
 /// Keys in the order in which they were written.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Table {
+pub(super) struct WrittenTable {
     pub entries: Vec<Entry>,
 }
 
@@ -69,7 +69,7 @@ pub(super) struct Entry {
     pub node: Node,
 }
 
-impl Table {
+impl WrittenTable {
     pub fn get(&self, name: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.name == name)
     }
@@ -92,7 +92,7 @@ pub(super) struct SceneSpec {
     texts: Vec<Text>,
     /// Name of a scene that does not state one.
     pub stem: String,
-    pub root: Table,
+    pub root: WrittenTable,
 }
 
 impl SceneSpec {
@@ -108,7 +108,7 @@ impl SceneSpec {
                 text: source.text,
             }],
             stem: source.stem,
-            root: Table::default(),
+            root: WrittenTable::default(),
         };
         let text = &spec.texts[0].text;
         match Document::parse(text.as_str()) {
@@ -211,7 +211,7 @@ fn span(text: usize, range: Option<std::ops::Range<usize>>, fallback: Span) -> S
 }
 
 /// Converts a table of a parsed document.
-pub(super) fn table(source: &dyn TableLike, text: usize) -> Table {
+pub(super) fn table(source: &dyn TableLike, text: usize) -> WrittenTable {
     let nowhere = Span {
         text,
         start: 0,
@@ -229,23 +229,23 @@ pub(super) fn table(source: &dyn TableLike, text: usize) -> Table {
             }
         })
         .collect();
-    Table { entries }
+    WrittenTable { entries }
 }
 
 fn node(item: &Item, text: usize, key: Span) -> Node {
     let value = match item {
         Item::Value(inner) => return value_node(inner, text, key),
-        Item::Table(inner) => Value::Table(table(inner, text)),
-        Item::ArrayOfTables(inner) => Value::List(
+        Item::Table(inner) => WrittenValue::Table(table(inner, text)),
+        Item::ArrayOfTables(inner) => WrittenValue::List(
             inner
                 .iter()
                 .map(|element| Node {
                     span: span(text, element.span(), key),
-                    value: Value::Table(table(element, text)),
+                    value: WrittenValue::Table(table(element, text)),
                 })
                 .collect(),
         ),
-        Item::None => Value::Table(Table::default()),
+        Item::None => WrittenValue::Table(WrittenTable::default()),
     };
     // The span of an array of tables reaches over all of them: its key says more.
     let range = match item {
@@ -261,18 +261,18 @@ fn node(item: &Item, text: usize, key: Span) -> Node {
 fn value_node(source: &toml_edit::Value, text: usize, key: Span) -> Node {
     let here = span(text, source.span(), key);
     let value = match source {
-        toml_edit::Value::String(inner) => Value::Text(inner.value().clone()),
-        toml_edit::Value::Integer(inner) => Value::Integer(*inner.value()),
-        toml_edit::Value::Float(inner) => Value::Float(*inner.value()),
-        toml_edit::Value::Boolean(_) => Value::Boolean,
-        toml_edit::Value::Datetime(_) => Value::Date,
-        toml_edit::Value::Array(inner) => Value::List(
+        toml_edit::Value::String(inner) => WrittenValue::Text(inner.value().clone()),
+        toml_edit::Value::Integer(inner) => WrittenValue::Integer(*inner.value()),
+        toml_edit::Value::Float(inner) => WrittenValue::Float(*inner.value()),
+        toml_edit::Value::Boolean(_) => WrittenValue::Boolean,
+        toml_edit::Value::Datetime(_) => WrittenValue::Date,
+        toml_edit::Value::Array(inner) => WrittenValue::List(
             inner
                 .iter()
                 .map(|element| value_node(element, text, here))
                 .collect(),
         ),
-        toml_edit::Value::InlineTable(inner) => Value::Table(table(inner, text)),
+        toml_edit::Value::InlineTable(inner) => WrittenValue::Table(table(inner, text)),
     };
     Node { value, span: here }
 }

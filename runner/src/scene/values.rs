@@ -1,13 +1,13 @@
 //! Values of a scene as it was written, seen as numbers, lists and tables.
 
-use super::spec::{Node, Table, Value};
+use super::spec::{Node, WrittenTable, WrittenValue};
 
 /// A finite or infinite number, whole or not.
 pub(super) fn number(node: &Node) -> Option<f64> {
     match node.value {
         // Exact below 2^53, and rounded to the nearest number above.
-        Value::Integer(n) => Some(n as f64),
-        Value::Float(x) => Some(x),
+        WrittenValue::Integer(n) => Some(n as f64),
+        WrittenValue::Float(x) => Some(x),
         _ => None,
     }
 }
@@ -18,9 +18,9 @@ pub(super) fn finite(node: &Node) -> Option<f64> {
 }
 
 /// The table in a node, if it is one.
-pub(super) fn as_table(node: &Node) -> Option<&Table> {
+pub(super) fn as_table(node: &Node) -> Option<&WrittenTable> {
     match &node.value {
-        Value::Table(table) => Some(table),
+        WrittenValue::Table(table) => Some(table),
         _ => None,
     }
 }
@@ -28,7 +28,7 @@ pub(super) fn as_table(node: &Node) -> Option<&Table> {
 /// The elements of a list; none for anything else.
 pub(super) fn elements(node: &Node) -> &[Node] {
     match &node.value {
-        Value::List(list) => list,
+        WrittenValue::List(list) => list,
         _ => &[],
     }
 }

@@ -2,13 +2,26 @@
 //! lists its words once, so that parsing, help texts and printing cannot disagree.
 
 /// A choice written in a scene as one word.
-pub(super) trait Word: Sized + Copy + 'static {
+pub(super) trait ChoiceWord: Sized + Copy + 'static {
+    /// Every word of this choice.
+    const WORDS: &'static [&'static str];
+
+    /// Stands in for a word that was refused and has no default.
+    const FIRST: Self;
+
     /// The value a word stands for, or `None` when the word is not one of this choice.
     fn from_word(word: &str) -> Option<Self>;
+
+    /// The word a scene uses for this value.
+    fn word(self) -> &'static str;
 }
 
+/// Declares a choice: an enum whose variants stand beside their words.
 macro_rules! words {
-    ($(#[$doc:meta])* $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $word:literal,)+ }) => {
+    (
+        $(#[$doc:meta])*
+        $name:ident { $($(#[$variant_doc:meta])* $variant:ident = $word:literal,)+ }
+    ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum $name { $($(#[$variant_doc])* $variant,)+ }
@@ -24,25 +37,21 @@ macro_rules! words {
             }
         }
 
-        impl Word for $name {
+        impl $crate::scene::words::ChoiceWord for $name {
+            const WORDS: &'static [&'static str] = $name::WORDS;
+            const FIRST: Self = [$(Self::$variant),+][0];
+
             fn from_word(word: &str) -> Option<Self> {
                 match word { $($word => Some(Self::$variant),)+ _ => None }
+            }
+
+            fn word(self) -> &'static str {
+                $name::word(self)
             }
         }
     };
 }
-
-words! {
-    /// Which discretisation advances the fluid.
-    Model {
-        /// Density by summation over the neighbours: Hamiltonian and reversible.
-        Symplectic = "symplectic",
-        /// Density advanced in time by the continuity equation: not reversible.
-        Standard = "standard",
-        /// The symplectic scheme with its noise filtered out every few steps: dissipative.
-        Filtered = "filtered",
-    }
-}
+pub(super) use words;
 
 words! {
     /// Which row of the table of integrators composes drifts and kicks.
@@ -53,41 +62,6 @@ words! {
         Pefrl = "pefrl",
         /// Suzuki's five-fold composition: fourth order, five evaluations.
         Suzuki = "suzuki",
-    }
-}
-
-words! {
-    /// How the summed density is corrected at free surfaces.
-    DensityCorrection {
-        /// A constant C_a per particle makes the first density the reference density.
-        Constant = "constant",
-        /// The particles are moved until the bare sum is the reference density (see
-        /// [`isc`](crate::isc)).
-        Isc = "isc",
-        /// The bare sum over the neighbours.
-        None = "none",
-    }
-}
-
-words! {
-    /// How walls act on the fluid.
-    WallModel {
-        /// A repulsive pair potential of each wall particle, part of the energy.
-        Conservative = "conservative",
-        /// Wall particles take part in density and pressure as fixed fluid.
-        Dummy = "dummy",
-        /// Walls are left out: no wall particle is made.
-        None = "none",
-    }
-}
-
-words! {
-    /// Pressure as a function of density.
-    EquationOfState {
-        /// p = c² rho0 / 7 ((rho / rho0)^7 - 1).
-        Tait = "tait",
-        /// p = c² (rho - rho0).
-        Linear = "linear",
     }
 }
 

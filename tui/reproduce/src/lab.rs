@@ -1,8 +1,8 @@
 //! The laboratory: scenes are run in the directory of the report, once.
 //!
-//! `DIR/runs/NAME` is an ordinary run directory. Asked for a run, the lab looks there first: a finished
-//! run of the same scene is read, an interrupted one goes on, and only where there is none a new one
-//! is started. Sections are kept in `DIR/NAME.json`.
+//! `DIR/runs/NAME` is an ordinary run directory. Asked for a run, the lab looks there first: a
+//! finished run of the same scene is read, an interrupted one goes on, and only where there is none
+//! a new one is started. Sections are kept in `DIR/NAME.json`.
 
 use crate::section::{Figure, Section};
 use loschmidt_core::Fault;
@@ -145,7 +145,7 @@ pub fn set<const N: usize>(pairs: [&str; N]) -> Vec<String> {
 const MARK: &str = "reproduce.json";
 
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-struct Mark {
+struct ReportMark {
     report: String,
     quick: bool,
 }
@@ -163,7 +163,7 @@ impl<'a> Lab<'a> {
         stop: &'a AtomicBool,
         news: impl FnMut(News<'_>) + 'a,
     ) -> Result<Self, LabError> {
-        let mark = Mark {
+        let mark = ReportMark {
             report: "loschmidt reproduce".to_owned(),
             quick,
         };
@@ -174,7 +174,7 @@ impl<'a> Lab<'a> {
         };
         if dir.exists() {
             let text = fs::read_to_string(&path).unwrap_or_default();
-            match serde_json::from_str::<Mark>(&text) {
+            match serde_json::from_str::<ReportMark>(&text) {
                 Ok(found) if found == mark => {}
                 Ok(_) if force => remove_sections(dir)?,
                 Ok(found) if found.quick => return Err(occupied("holds a quick report")),
@@ -383,16 +383,24 @@ fn io(what: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> LabErro
 
 /// Removes the sections of an earlier report; its runs stay, for they are what they are.
 fn remove_sections(dir: &Path) -> Result<(), LabError> {
-    for target in crate::Target::ALL {
-        let path = dir.join(format!("{}.json", target.name()));
-        match fs::remove_file(&path) {
-            Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
-                return Err(io("remove", &path)(e));
-            }
-            _ => {}
+    let Ok(entries) = fs::read_dir(dir) else {
+        return Ok(());
+    };
+    for path in entries.flatten().map(|entry| entry.path()) {
+        if is_section(&path) {
+            fs::remove_file(&path).map_err(io("remove", &path))?;
         }
     }
     Ok(())
+}
+
+/// Whether a file holds a section under the name of its target, as [`Lab::keep`] writes it.
+fn is_section(path: &Path) -> bool {
+    let text = fs::read_to_string(path).unwrap_or_default();
+    let target = path.file_stem().and_then(|stem| stem.to_str());
+    path.extension()
+        .is_some_and(|extension| extension == "json")
+        && serde_json::from_str::<Section>(&text).is_ok_and(|s| Some(s.target.as_str()) == target)
 }
 
 /// Whether the directory holds a run of this scene, or of none yet.

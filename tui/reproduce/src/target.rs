@@ -48,15 +48,18 @@ targets! {
     /// Fig. 6.
     Fig6 = "fig6", "the speeds at 2 s and the entropy out and back", targets::entropy::fig6;
     /// Fig. 7 and Table 2.
-    Table2 = "table2", "the Gresho vortex on four lattices, unfiltered and filtered (with Fig. 7)", targets::gresho::table2;
+    Table2 = "table2", "the Gresho vortex on four lattices, unfiltered and filtered (with Fig. 7)",
+        targets::gresho::table2;
     /// Footnote 8.
     Kepler = "kepler", "the Kepler ring, ten revolutions and back", targets::claims::kepler;
     /// What the paper says and does not show.
-    Claims = "claims", "voids, dummy walls, the time step, three dimensions", targets::claims::claims;
+    Claims = "claims", "voids, dummy walls, the time step, three dimensions",
+        targets::claims::claims;
     /// Beyond the paper.
     Echo = "echo", "fidelity of the echo and the Lyapunov exponent", targets::echo::echo;
     /// Beyond the paper.
-    Work = "work", "work and precision of every integrator, and the preset `accurate`", targets::work::work;
+    Work = "work", "work and precision of every integrator, and the preset `accurate`",
+        targets::work::work;
 }
 
 impl Target {

@@ -3,14 +3,14 @@
 use crate::lab::{Lab, LabError};
 use crate::section::Section;
 use crate::svg::{self, Chart, Field, Style};
-use loschmidt_runner::isc::{Report, Settings, correct};
+use loschmidt_runner::isc::{Convergence, Settings, correct};
 use std::time::Instant;
 
 /// Columns and rows of particles.
 const SIZES: [[usize; 2]; 3] = [[50, 50], [100, 100], [200, 400]];
 
 struct Corrected {
-    report: Report,
+    report: Convergence,
     seconds: f64,
     /// Positions and relative densities before every step and at the end.
     stages: Vec<(Vec<[f64; 2]>, Vec<f64>)>,

@@ -16,35 +16,35 @@ use std::f64::consts::PI;
 /// Moments at which the error is taken; the largest counts.
 const SAMPLES: u64 = 20;
 
-/// A row of the paper's table: its name, the keys of its scene, and the errors in percent unfiltered,
-/// with the passive and with the active filter.
-struct Lattice {
+/// A row of the paper's table: its name, the keys of its scene, and the errors in percent
+/// unfiltered, with the passive and with the active filter.
+struct VortexLattice {
     name: &'static str,
     lattice: &'static str,
     correction: &'static str,
     paper: [f64; 3],
 }
 
-const LATTICES: [Lattice; 4] = [
-    Lattice {
+const LATTICES: [VortexLattice; 4] = [
+    VortexLattice {
         name: "square",
         lattice: "square",
         correction: "constant",
         paper: [28.16, 12.20, 53.07],
     },
-    Lattice {
+    VortexLattice {
         name: "hexagonal",
         lattice: "hexagonal",
         correction: "constant",
         paper: [27.84, 11.77, 55.79],
     },
-    Lattice {
+    VortexLattice {
         name: "Vogel",
         lattice: "vogel",
         correction: "constant",
         paper: [29.85, 13.31, 78.06],
     },
-    Lattice {
+    VortexLattice {
         name: "Vogel + ISC",
         lattice: "vogel",
         correction: "isc",
@@ -55,7 +55,7 @@ const LATTICES: [Lattice; 4] = [
 /// Largest difference from the paper that is accepted, percentage points.
 const ALLOWED: f64 = 2.0;
 
-fn gresho(lattice: &Lattice, spacing: f64, active: bool) -> Result<Scene, LabError> {
+fn gresho(lattice: &VortexLattice, spacing: f64, active: bool) -> Result<Scene, LabError> {
     let mut set = vec![
         format!("region.0.lattice={}", lattice.lattice),
         format!("density_correction={}", lattice.correction),

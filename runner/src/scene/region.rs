@@ -1,0 +1,111 @@
+//! What a scene is filled with, and how it moves at first.
+
+use super::geometry::Vector3;
+use super::shape::Shape;
+use super::words::{LatticeKind, RegionKind};
+
+/// A part of the plane or space that is filled with particles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// Fluid or wall.
+    pub kind: RegionKind,
+    /// What is filled.
+    pub shape: Shape,
+    /// Arrangement of the particles of a fluid region; a wall has `None`, since it
+    /// continues the lattice of the first fluid region.
+    pub lattice: Option<LatticeKind>,
+    /// First velocity; `None` is at rest. A wall has `None`.
+    pub velocity: Option<Velocity>,
+}
+
+/// A velocity field.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Velocity {
+    /// The same velocity everywhere, m/s.
+    Uniform(Vector3),
+    /// Rigid rotation: u = omega x (x - centre).
+    Rotation {
+        /// Angular velocity, rad/s; along z in the plane.
+        omega: Vector3,
+        /// A point on the axis, m.
+        centre: Vector3,
+    },
+    /// Gresho's vortex: circles around the centre with speed peak r/R up to the radius R, then
+    /// peak (2 - r/R) up to 2 R, then none.
+    /// (Liska & Wendroff, SIAM J. Sci. Comput. 25 (2003) 995.)
+    Gresho {
+        /// Largest speed, m/s.
+        peak: f64,
+        /// R, m.
+        radius: f64,
+        /// The middle, m.
+        centre: Vector3,
+    },
+    /// Circular orbits around the centre: speed (strength/r)^(1/2).
+    Kepler {
+        /// Gravitational constant times mass, m³/s².
+        strength: f64,
+        /// The middle, m.
+        centre: Vector3,
+    },
+    /// A linear field: u = A x + b.
+    Linear {
+        /// The matrix A by rows, 1/s.
+        matrix: [Vector3; 3],
+        /// The vector b, m/s.
+        offset: Vector3,
+    },
+}
+
+impl Velocity {
+    /// The velocity at `x`, m/s, from `+ - * / sqrt` in one written order.
+    #[must_use]
+    pub fn at(&self, x: Vector3) -> Vector3 {
+        match self {
+            Self::Uniform(velocity) => *velocity,
+            Self::Rotation {
+                omega: w,
+                centre: c,
+            } => {
+                let d = [x[0] - c[0], x[1] - c[1], x[2] - c[2]];
+                [
+                    w[1] * d[2] - w[2] * d[1],
+                    w[2] * d[0] - w[0] * d[2],
+                    w[0] * d[1] - w[1] * d[0],
+                ]
+            }
+            Self::Gresho {
+                peak,
+                radius,
+                centre,
+            } => circling(x, *centre, |r| {
+                let q = r / radius;
+                // Divided by r where the speed is proportional to it: no 0/0 in the middle.
+                if q < 1.0 {
+                    peak / radius
+                } else if q < 2.0 {
+                    peak * (2.0 - q) / r
+                } else {
+                    0.0
+                }
+            }),
+            Self::Kepler { strength, centre } => circling(x, *centre, |r| {
+                if r > 0.0 {
+                    (strength / r).sqrt() / r
+                } else {
+                    0.0
+                }
+            }),
+            Self::Linear { matrix, offset } => std::array::from_fn(|i| {
+                matrix[i][0] * x[0] + matrix[i][1] * x[1] + matrix[i][2] * x[2] + offset[i]
+            }),
+        }
+    }
+}
+
+/// Counter-clockwise circles in the plane with the angular velocity of each radius.
+fn circling(x: Vector3, centre: Vector3, omega: impl Fn(f64) -> f64) -> Vector3 {
+    let (dx, dy) = (x[0] - centre[0], x[1] - centre[1]);
+    let omega = omega((dx * dx + dy * dy).sqrt());
+    [-(omega * dy), omega * dx, 0.0]
+}

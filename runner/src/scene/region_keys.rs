@@ -1,0 +1,193 @@
+//! The keys of regions, velocities and shapes. Their values are read by hand (see
+//! [`regions`](super::regions)), since several of them exclude each other. A shape holds shapes, so
+//! the rules of these tables refer to each other.
+
+use super::schema::Range::{Above, AboveUpTo, AtLeast};
+use super::schema::ValueType::{Choice, Matrix, Number, Rotation, Table, Tables, Vector};
+use super::schema::{Form, SceneKey, TableRules, ValueType, key};
+use super::words::Dimension::{Three, Two};
+use super::words::{LatticeKind, RegionKind};
+
+/// The key of the top level that holds the regions.
+pub(super) const REGIONS: SceneKey = key("region", Tables(&REGION))
+    .required()
+    .means("what is filled with particles, in the order of their ids");
+
+pub(super) static REGION: TableRules = TableRules {
+    title: "`[[region]]`",
+    form: Form::Other,
+    keys: &[
+        key("kind", Choice(RegionKind::WORDS))
+            .required()
+            .means("particles that move or particles that stay"),
+        key("lattice", Choice(LatticeKind::WORDS)).means(
+            "arrangement of fluid particles; a wall continues that of the first fluid region",
+        ),
+        key("shape", Table(&SHAPE))
+            .required()
+            .means("what is filled"),
+        key("velocity", Table(&VELOCITY)).means("first velocity of the fluid; absent: at rest"),
+    ],
+};
+
+pub(super) static VELOCITY: TableRules = TableRules {
+    title: "a `velocity`",
+    form: Form::Other,
+    keys: &[
+        key("uniform", Vector)
+            .unit("m/s")
+            .means("the same velocity everywhere"),
+        key("rotation", Rotation)
+            .unit("rad/s")
+            .means("angular velocity of a rigid rotation, counter-clockwise"),
+        key("centre", Vector)
+            .unit("m")
+            .means("the middle of a rotation or vortex; absent: the origin"),
+        key("gresho", Number).unit("m/s").only(Two).means(
+            "peak speed of Gresho's vortex: u = peak r/radius, falling to zero at twice the radius",
+        ),
+        key("radius", Number)
+            .unit("m")
+            .within(Above(0.0))
+            .or(0.2)
+            .only(Two)
+            .means("radius at which Gresho's vortex is fastest"),
+        key("kepler", Number)
+            .unit("m³/s²")
+            .within(AtLeast(0.0))
+            .only(Two)
+            .means("circular orbits around the centre: u = sqrt(strength/r)"),
+        key("linear", Matrix)
+            .unit("1/s")
+            .means("matrix A of u = A x + b, row by row"),
+        key("offset", Vector)
+            .unit("m/s")
+            .means("vector b of u = A x + b; absent: zero"),
+    ],
+};
+
+pub(super) static SHAPE: TableRules = TableRules {
+    title: "a shape",
+    form: Form::Other,
+    keys: &[
+        key("rectangle", Table(&BLOCK))
+            .only(Two)
+            .means("rectangle along the axes"),
+        key("box", Table(&BLOCK))
+            .only(Three)
+            .means("box along the axes"),
+        key("circle", Table(&BALL)).only(Two).means("disc"),
+        key("sphere", Table(&BALL)).only(Three).means("ball"),
+        key("ellipse", Table(&ELLIPSOID))
+            .only(Two)
+            .means("ellipse along the axes"),
+        key("ellipsoid", Table(&ELLIPSOID))
+            .only(Three)
+            .means("ellipsoid along the axes"),
+        key("annulus", Table(&SHELL))
+            .only(Two)
+            .means("disc with a round hole"),
+        key("shell", Table(&SHELL))
+            .only(Three)
+            .means("ball with a round hole"),
+        key("polygon", Table(&POLYGON))
+            .only(Two)
+            .means("polygon by its corners, even-odd rule"),
+        key("union", Tables(&SHAPE)).means("in any of these shapes"),
+        key("difference", Tables(&SHAPE)).means("in the first shape and in none of the others"),
+        key("intersection", Tables(&SHAPE)).means("in every one of these shapes"),
+        key("layer", Table(&LAYER)).means("the lattice continued outside a shape"),
+    ],
+};
+
+pub(super) static BLOCK: TableRules = TableRules {
+    title: "a `rectangle` or `box`",
+    form: Form::UnderKey,
+    keys: &[
+        key("min", Vector)
+            .unit("m")
+            .required()
+            .means("lower corner, included"),
+        key("max", Vector)
+            .unit("m")
+            .required()
+            .means("upper corner, excluded"),
+    ],
+};
+
+pub(super) static BALL: TableRules = TableRules {
+    title: "a `circle` or `sphere`",
+    form: Form::UnderKey,
+    keys: &[
+        key("centre", Vector)
+            .unit("m")
+            .required()
+            .means("the point in the middle"),
+        key("radius", Number)
+            .unit("m")
+            .within(Above(0.0))
+            .required()
+            .means("distance of the edge from the centre"),
+    ],
+};
+
+pub(super) static ELLIPSOID: TableRules = TableRules {
+    title: "an `ellipse` or `ellipsoid`",
+    form: Form::UnderKey,
+    keys: &[
+        key("centre", Vector)
+            .unit("m")
+            .required()
+            .means("the point in the middle"),
+        key("axes", Vector)
+            .unit("m")
+            .within(Above(0.0))
+            .required()
+            .means("semi-axes"),
+    ],
+};
+
+pub(super) static SHELL: TableRules = TableRules {
+    title: "an `annulus` or `shell`",
+    form: Form::UnderKey,
+    keys: &[
+        key("centre", Vector)
+            .unit("m")
+            .required()
+            .means("the point in the middle"),
+        key("inner", Number)
+            .unit("m")
+            .within(AtLeast(0.0))
+            .required()
+            .means("radius of the hole"),
+        key("outer", Number)
+            .unit("m")
+            .within(Above(0.0))
+            .required()
+            .means("outer radius"),
+    ],
+};
+
+pub(super) static POLYGON: TableRules = TableRules {
+    title: "a `polygon`",
+    form: Form::UnderKey,
+    keys: &[key("points", ValueType::Corners)
+        .unit("m")
+        .required()
+        .means("corners [x, y] in order")],
+};
+
+pub(super) static LAYER: TableRules = TableRules {
+    title: "a `layer`",
+    form: Form::UnderKey,
+    keys: &[
+        key("around", Table(&SHAPE))
+            .required()
+            .means("the shape that is wrapped"),
+        key("depth", Number)
+            .unit("particle spacings")
+            .within(AboveUpTo(0.0, 10.0))
+            .required()
+            .means("how far out the layer reaches; 2.5 gives three rows"),
+    ],
+};

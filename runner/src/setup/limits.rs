@@ -1,0 +1,46 @@
+//! Time steps that are small enough.
+
+use super::wall;
+use crate::player::Player;
+use crate::scene::Scene;
+use loschmidt_core::Fault;
+use loschmidt_core::schemes::wcsph::Wall;
+
+/// Time steps that are small enough by the scene alone, s, by name:
+///
+/// - `acoustic`: 0.4 h/c. Störmer–Verlet lost the dam break at 0.6 and kept it at 0.4.
+/// - `wall`: 0.5 r_wall/sqrt(2 E). Near r_wall the conservative wall is a spring of frequency
+///   sqrt(2 E)/r_wall, stable for time steps up to four times this.
+#[must_use]
+pub fn fixed_limits(scene: &Scene) -> Vec<(&'static str, f64)> {
+    let acoustic = 0.4 * scene.support_radius() / scene.fluid.sound_speed;
+    let mut limits = vec![("acoustic", acoustic)];
+    if let Wall::Conservative { energy, radius, .. } = wall(scene) {
+        limits.push(("wall", 0.5 * radius / (2.0 * energy).sqrt()));
+    }
+    limits
+}
+
+/// The time step 0.25 sqrt(h/a), s, with the largest acceleration a of the player's present state;
+/// `None` without forces. Takes a step to learn the accelerations, and goes back to where it was.
+///
+/// # Errors
+/// The step failed.
+pub fn force_limit(player: &mut Player) -> Result<Option<f64>, Fault> {
+    let before = player.save();
+    let (position, arrow) = (player.position(), player.arrow());
+    let result = player.advance(1);
+    let after = player.save();
+    // The state came from this very player: it fits.
+    let _ = player.restore(&before, position, arrow);
+    result?;
+    let dt = player.scene().time_step();
+    let largest = (0..before.id.len())
+        .map(|n| {
+            let (a, b) = (before.velocity(n), after.velocity(n));
+            (0..3).map(|d| ((b[d] - a[d]) / dt).powi(2)).sum::<f64>()
+        })
+        .fold(0.0, f64::max)
+        .sqrt();
+    Ok((largest > 0.0).then(|| 0.25 * (player.scene().support_radius() / largest).sqrt()))
+}
