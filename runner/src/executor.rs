@@ -10,12 +10,14 @@ use loschmidt_core::executor::Targets;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
 use loschmidt_core::pairs::{PairPass, Sources, accumulate, read, separation};
 use loschmidt_core::{Arithmetic, Executor, Fault, FaultKind, Serial};
-use rayon::prelude::*;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 /// Fewest particles worth a task of their own: about 50 µs of work.
 const GRAIN: usize = 128;
+
+/// Parts for each thread: enough that none waits long for the last.
+const PARTS: usize = 8;
 
 /// Length of the list of neighbours; a longer one is summed in pieces.
 const LIST: usize = 128;
@@ -49,8 +51,50 @@ impl Rayon {
 
     /// Runs `work` on the pool, so that what it does in parallel need not be handed over each time.
     pub fn install<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        self.pool.install(work)
+        let (mut work, mut result) = (Some(work), None);
+        self.on_pool(&mut || result = work.take().map(|work| work()));
+        match result {
+            Some(result) => result,
+            None => unreachable!("the pool has done the work, or passed on its panic"),
+        }
     }
+
+    /// Compiled once, where a pool that knew the type of the work would be compiled for each.
+    fn on_pool(&self, task: Task<'_>) {
+        self.pool.install(task);
+    }
+}
+
+/// Work of any kind: rayon's own code is then compiled for this type alone.
+type Task<'a> = &'a mut (dyn FnMut() + Send);
+
+/// Does both, on two threads if there is one without work.
+fn join(a: Task<'_>, b: Task<'_>) {
+    rayon::join(a, b);
+}
+
+/// Calls `f` with the items of two slices of one length, in parts of at most `part` that any
+/// thread may take; the first of them has the index `first`.
+fn in_parts<T: Send, U: Send>(
+    (first, part): (usize, usize),
+    a: &mut [T],
+    b: &mut [U],
+    f: &(impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync),
+) -> Option<Fault> {
+    if a.len() <= part {
+        let each = (first..).zip(a.iter_mut().zip(b));
+        return each
+            .filter_map(|(i, (a, b))| f(i, a, b).err())
+            .reduce(Fault::first);
+    }
+    let middle = a.len() / 2;
+    let ((a, a_late), (b, b_late)) = (a.split_at_mut(middle), b.split_at_mut(middle));
+    let (mut early, mut late) = (None, None);
+    join(
+        &mut || early = in_parts((first, part), a, b, f),
+        &mut || late = in_parts((first + middle, part), a_late, b_late, f),
+    );
+    early.into_iter().chain(late).reduce(Fault::first)
 }
 
 impl Executor for Rayon {
@@ -81,15 +125,9 @@ impl Executor for Rayon {
         items: &mut [T],
         f: impl Fn(usize, &mut T) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault> {
-        let run = || {
-            items
-                .par_iter_mut()
-                .with_min_len(GRAIN)
-                .enumerate()
-                .filter_map(|(i, item)| f(i, item).err())
-                .reduce_with(Fault::first)
-        };
-        self.pool.install(run).map_or(Ok(()), Err)
+        // A unit takes no memory.
+        let mut units = vec![(); items.len()];
+        self.for_both(items, &mut units, |i, item, ()| f(i, item))
     }
 
     fn for_both<T: Send, U: Send>(
@@ -98,15 +136,10 @@ impl Executor for Rayon {
         b: &mut [U],
         f: impl Fn(usize, &mut T, &mut U) -> Result<(), Fault> + Sync,
     ) -> Result<(), Fault> {
-        let run = || {
-            a.par_iter_mut()
-                .zip(b)
-                .with_min_len(GRAIN)
-                .enumerate()
-                .filter_map(|(i, (a, b))| f(i, a, b).err())
-                .reduce_with(Fault::first)
-        };
-        self.pool.install(run).map_or(Ok(()), Err)
+        let length = a.len().min(b.len());
+        let part = length.div_ceil(PARTS * self.threads()).max(GRAIN);
+        let run = || in_parts((0, part), &mut a[..length], &mut b[..length], &f);
+        self.install(run).map_or(Ok(()), Err)
     }
 }
 
