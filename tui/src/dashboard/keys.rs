@@ -1,10 +1,10 @@
 //! From the terminal's events to messages.
 
 use super::message::{Message, Mouse};
-use loschmidt_viewer::Key;
-use ratatui::crossterm::event::{
+use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
+use loschmidt_viewer::Key;
 
 /// What an event of the terminal means; `None` for those that mean nothing here.
 pub fn message(event: Event) -> Option<Message> {
