@@ -38,6 +38,7 @@ pub enum Command {
     /// Watch a scene or an earlier run in the dashboard, in both directions of time; ? shows the keys
     Tui(TuiArguments),
     /// Watch a scene or an earlier run in a window, in both directions of time; ? shows the keys
+    #[cfg(feature = "window")]
     View(loschmidt_viewer::window::Arguments),
     /// Go on with an interrupted run
     Resume(ResumeArguments),

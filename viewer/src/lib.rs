@@ -14,7 +14,7 @@
 //! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
 //! 6. What faces share: [`face`], what they open, keep and say; [`keys`], the one table of keys;
 //!    [`track`], the ways out and back as they are while a user goes to and fro.
-//! 7. [`window`]: the desktop window.
+//! 7. `window`: the desktop window, if the feature of that name is on, as it is by default.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
 //! every machine. Every thread owns the rows it draws, sums over particles are sums of whole numbers
@@ -43,6 +43,7 @@ mod stamp;
 pub mod text;
 pub mod track;
 mod wide;
+#[cfg(feature = "window")]
 pub mod window;
 
 pub use camera::{Projection, View};

@@ -6,6 +6,7 @@ mod reproduce;
 mod run;
 mod scenes;
 mod tui;
+#[cfg(feature = "window")]
 mod view;
 
 use crate::cli::{Arguments, Command, RunArguments, TuiArguments};
@@ -23,6 +24,7 @@ pub fn execute(arguments: Arguments) -> Result<ExitCode, Failure> {
         None => run::run(&RunArguments::default()),
         Some(Command::Run(arguments)) => run::run(&arguments),
         Some(Command::Tui(arguments)) => tui::tui(&arguments),
+        #[cfg(feature = "window")]
         Some(Command::View(arguments)) => view::view(&arguments),
         Some(Command::Resume(arguments)) => run::resume(&arguments),
         Some(Command::Movie(arguments)) => movie::movie(&arguments),
