@@ -63,7 +63,8 @@ mkdir -p -- "$store"
 # --- building -------------------------------------------------------------------------------------
 
 cd "$repo" || exit 1
-if ! cargo build --quiet --release -p loschmidt-viewer --bin loschmidt-viewer --example screen >&2; then
+# Of the whole workspace: a package by itself gets other features, and is built anew.
+if ! cargo build --quiet --release --workspace --bin loschmidt-viewer --example screen >&2; then
     fail "it does not build"
     exit 1
 fi

@@ -3,10 +3,11 @@
 mod pictures;
 
 use crate::drive::{self, Drive, Held};
-use crate::executor::{AnyExecutor, ExecutorKind, Rayon};
+use crate::executor::{AnyExecutor, ExecutorKind};
 use crate::fast::Fast;
 use crate::frame::Frame;
 use crate::points::Points;
+use crate::pool::Rayon;
 use crate::random::SplitMix64;
 use crate::saved::{ArithmeticKind, SavedField, SavedState};
 use crate::scene::InitialState;
@@ -30,6 +31,18 @@ pub(crate) struct Engine<A: Arithmetic, M, const D: usize> {
     executor: AnyExecutor,
     /// The executor has given its memory back, and what the scratch holds fits nothing any more.
     released: bool,
+}
+
+/// Sets up a simulation of any model at step 0: what the model computes once is computed.
+///
+/// # Errors
+/// [`BuildError`].
+pub fn simulate<A: Arithmetic, M: Model<A, D>, const D: usize>(
+    model: M,
+    particles: &InitialState,
+    options: &Options,
+) -> Result<Box<dyn Simulation>, BuildError> {
+    Ok(Box::new(Engine::<A, M, D>::new(model, particles, options)?))
 }
 
 impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {

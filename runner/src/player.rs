@@ -4,9 +4,9 @@
 //! forward, or backward after a turn, when every velocity is reversed. **Going back is integrating
 //! back**; no history is stored. Dashboard, window and headless run are faces of it.
 
-use crate::executor::Rayon;
 use crate::frame::Frame;
 use crate::points::Points;
+use crate::pool::Rayon;
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::{InitialState, Scene};
 use crate::setup;

@@ -4,10 +4,11 @@ mod limits;
 
 pub use limits::{fixed_limits, force_limit};
 
+use crate::engine::simulate;
 use crate::isc;
 use crate::saved::ArithmeticKind;
 use crate::scene::{self, InitialState, Scene, Vector3};
-use crate::simulation::{BuildError, Options, Simulation, simulate};
+use crate::simulation::{BuildError, Options, Simulation};
 use crate::storage;
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
 use loschmidt_core::model::{Measure, Model};

@@ -1,14 +1,12 @@
 //! A simulation without type parameters: any dimension, arithmetic, model and executor.
 
-use crate::engine::Engine;
-use crate::executor::{ExecutorKind, Rayon};
+use crate::executor::ExecutorKind;
 use crate::fast::Backend;
 use crate::frame::Frame;
 use crate::points::Points;
+use crate::pool::Rayon;
 use crate::saved::{ArithmeticKind, SavedState};
-use crate::scene::InitialState;
-use loschmidt_core::model::Model;
-use loschmidt_core::{Arithmetic, Diagnostics, Digest, Fault, Reversibility};
+use loschmidt_core::{Diagnostics, Digest, Fault, Reversibility};
 use std::num::NonZeroUsize;
 use thiserror::Error;
 
@@ -120,16 +118,4 @@ pub trait Simulation: Send {
     fn pool(&self) -> Option<Rayon>;
     /// Flips the lowest bit of the first coordinate of the particle with this id.
     fn flip_last_bit(&mut self, id: u64);
-}
-
-/// Sets up a simulation of any model at step 0: what the model computes once is computed.
-///
-/// # Errors
-/// [`BuildError`].
-pub fn simulate<A: Arithmetic, M: Model<A, D>, const D: usize>(
-    model: M,
-    particles: &InitialState,
-    options: &Options,
-) -> Result<Box<dyn Simulation>, BuildError> {
-    Ok(Box::new(Engine::<A, M, D>::new(model, particles, options)?))
 }

@@ -59,8 +59,8 @@ fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 if ! LOSCHMIDT_FRAMES_DIR=$scratch/run cargo test --quiet --release \
-    --manifest-path "$repository/Cargo.toml" --package loschmidt-runner --test frames -- \
-    --exact writes_the_files_of_a_run >"$scratch/log" 2>&1; then
+    --manifest-path "$repository/Cargo.toml" --workspace --test runner -- \
+    --exact frames::writes_the_files_of_a_run >"$scratch/log" 2>&1; then
     cat "$scratch/log" >&2
     fail "the frames could not be written"
 fi

@@ -40,6 +40,7 @@ pub enum ProgramCommand {
     /// keys
     Tui(TuiArguments),
     /// Watch a scene or an earlier run in a window, in both directions of time; ? shows the keys
+    #[cfg(feature = "window")]
     View(loschmidt_viewer::window::WindowArguments),
     /// Go on with an interrupted run
     Resume(ResumeArguments),
@@ -272,8 +273,8 @@ pub struct MovieArguments {
     /// Colours of everything else
     #[arg(long, default_value = "dark")]
     pub theme: ThemeName,
-    /// A PNG laid over the initial state: every particle takes its colour from it
-    #[arg(long, value_name = "PNG", conflicts_with_all = ["color", "colormap"])]
+    /// A picture (PNG, JPEG, WebP, …) laid over the initial state: every particle takes its colour from it
+    #[arg(long, value_name = "PICTURE", conflicts_with_all = ["color", "colormap"])]
     pub tint: Option<PathBuf>,
     /// Show the same scene beside it in another arithmetic
     #[arg(long)]

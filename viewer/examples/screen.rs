@@ -8,7 +8,7 @@
 use loschmidt_runner::scene::{load, resolve};
 use loschmidt_runner::{Options, Player, Points};
 use loschmidt_viewer::window::Places;
-use loschmidt_viewer::{Home, Look, Raster, Rect, Rgb, field, png};
+use loschmidt_viewer::{Home, Look, Raster, Rect, Rgb, field, picture};
 use std::error::Error;
 use std::fs::File;
 use std::io::BufReader;
@@ -19,7 +19,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let [screen, picture, rest @ ..] = &words[..] else {
         return Err("SCREEN PNG [SCENE STEP [KEY=VALUE]...]".into());
     };
-    let picture = png::read(BufReader::new(File::open(picture)?), Rgb(0))?;
+    let picture = picture::read(BufReader::new(File::open(picture)?), Rgb(0))?;
     let screen = screen_of(&std::fs::read(screen)?).ok_or("not a screen")?;
     let mut different = unequal(&screen.part(picture.rect()), &picture);
     println!("screen and PNG: {different} pixels differ");

@@ -14,8 +14,8 @@
 //! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
 //! 6. [`session`]: a scene that a user watches and steers, whatever face shows it. [`keys`]: the
 //!    one table of keys. [`track`]: the ways out and back while a user goes to and fro.
-//! 7. [`window`]: the desktop window, a face of a session; the dashboard of `loschmidt tui` is the
-//!    other one.
+//! 7. `window`: the desktop window, a face of a session, if the feature of that name is on, as it
+//!    is by default; the dashboard of `loschmidt tui` is the other face.
 //!
 //! A picture is a function of its arguments alone: the same pixels for any number of threads and on
 //! every machine. Every thread owns the rows it draws, sums over particles are sums of whole
@@ -46,6 +46,7 @@ mod stamp;
 pub mod text;
 pub mod track;
 mod wide;
+#[cfg(feature = "window")]
 pub mod window;
 
 pub use camera::{Projection, View};

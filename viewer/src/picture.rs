@@ -3,6 +3,43 @@
 use crate::colour::Rgb;
 use crate::home::Home;
 use crate::raster::Raster;
+use image::{DynamicImage, ImageDecoder, ImageReader};
+use std::io::{BufRead, Seek};
+use thiserror::Error;
+
+/// Why a picture could not be read.
+#[derive(Debug, Error)]
+pub enum ReadError {
+    /// The file cannot be opened.
+    #[error(transparent)]
+    Io(#[from] std::io::Error),
+    /// Not a picture of a known format, a damaged one, or one too large for the memory.
+    #[error(transparent)]
+    Decoding(#[from] image::ImageError),
+}
+
+/// Reads a picture in any of the formats of `image` that this package asks for, the right way up;
+/// transparent parts are laid over `background`.
+///
+/// # Errors
+/// [`ReadError`].
+pub fn read(from: impl BufRead + Seek, background: Rgb) -> Result<Raster, ReadError> {
+    let mut decoder = ImageReader::new(from)
+        .with_guessed_format()?
+        .into_decoder()?;
+    // A camera held upright leaves the turning to whoever reads.
+    let orientation = decoder.orientation()?;
+    let mut picture = DynamicImage::from_decoder(decoder)?;
+    picture.apply_orientation(orientation);
+    let picture = picture.into_rgba8();
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let mut raster = Raster::new(width, height, background);
+    for (pixel, from) in raster.pixels_mut().iter_mut().zip(picture.pixels()) {
+        let [r, g, b, alpha] = from.0;
+        *pixel = background.mix(Rgb::of([r, g, b]), alpha).0;
+    }
+    Ok(raster)
+}
 
 /// A picture that particles take their colours from.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,5 +106,56 @@ impl Picture {
             Rgb::of(sum.map(|s| ((s + count / 2) / count) as u8))
         };
         home.position.iter().map(colour).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::ImageFormat;
+    use std::io::Cursor;
+
+    /// Four quarters, large enough that a JPEG keeps the colour in the middle of each.
+    fn quarters() -> image::RgbImage {
+        image::RgbImage::from_fn(64, 32, |x, y| {
+            image::Rgb([255 * u8::from(x < 32), 255 * u8::from(y < 16), 64])
+        })
+    }
+
+    #[test]
+    fn a_picture_of_any_common_format_is_read() {
+        use ImageFormat::{Bmp, Gif, Jpeg, Png, Pnm, WebP};
+        for format in [Bmp, Gif, Jpeg, Png, Pnm, WebP] {
+            let mut file = Cursor::new(Vec::new());
+            let saved = DynamicImage::from(quarters()).write_to(&mut file, format);
+            saved.expect("a file");
+            file.set_position(0);
+            let raster = read(file, Rgb(0)).expect("a picture");
+            assert_eq!((raster.width(), raster.height()), (64, 32), "{format:?}");
+            for (x, y) in [(16, 8), (48, 8), (16, 24), (48, 24)] {
+                let expected = quarters().get_pixel(x, y).0;
+                let found = raster.at(x as usize, y as usize).channels();
+                for (a, b) in found.into_iter().zip(expected) {
+                    assert!(a.abs_diff(b) <= 3, "{format:?} {found:?} {expected:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_transparent_shows_the_background() {
+        let mut file = Cursor::new(Vec::new());
+        let clear = image::RgbaImage::from_pixel(2, 1, image::Rgba([9, 9, 9, 0]));
+        let saved = DynamicImage::from(clear).write_to(&mut file, ImageFormat::Png);
+        saved.expect("a file");
+        file.set_position(0);
+        let raster = read(file, Rgb(0x12_34_56)).expect("a picture");
+        assert_eq!(raster.pixels(), [0x12_34_56; 2]);
+    }
+
+    #[test]
+    fn what_is_no_picture_is_told() {
+        let error = read(Cursor::new(b"no picture"), Rgb(0)).expect_err("an error");
+        assert!(matches!(error, ReadError::Decoding(_)), "{error}");
     }
 }

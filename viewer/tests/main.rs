@@ -3,4 +3,5 @@
 mod home;
 mod movie;
 mod pixels;
+#[cfg(feature = "window")]
 mod window;

@@ -7,7 +7,7 @@ use loschmidt_viewer::draw::PictureLayout;
 use loschmidt_viewer::movie::{
     Ending, Movie, MovieError, Schedule, Stored, Style, gif, picture_name,
 };
-use loschmidt_viewer::{Home, Look, Picture, Raster, Rect, Rgb, png};
+use loschmidt_viewer::{Home, Look, Picture, Raster, Rect, Rgb, picture};
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::Path;
@@ -75,7 +75,7 @@ fn interrupt(movie: &mut Movie, scene: &Scene, pictures: usize) {
 
 fn picture(path: &Path, n: usize) -> Raster {
     let file = File::open(path.join(picture_name(n))).expect("a picture");
-    png::read(BufReader::new(file), Rgb(0)).expect("a PNG")
+    picture::read(BufReader::new(file), Rgb(0)).expect("a PNG")
 }
 
 fn home(scene: &Scene) -> (Home, Frame) {

@@ -4,7 +4,7 @@ use crate::home::after;
 use loschmidt_runner::Points;
 use loschmidt_viewer::{
     Colormap, Colouring, History, Home, Look, Pane, Picture, Raster, Rect, Rgb, Theme, draw,
-    draw_on, field, png,
+    draw_on, field, picture, png,
 };
 use std::fs::File;
 use std::io::BufReader;
@@ -23,7 +23,7 @@ fn assert_golden(name: &str, raster: &Raster) {
         png::write(raster, File::create(&path).expect("a file")).expect("written");
     }
     let file = File::open(&path).expect("the committed picture");
-    let expected = png::read(BufReader::new(file), Rgb(0)).expect("a PNG");
+    let expected = picture::read(BufReader::new(file), Rgb(0)).expect("a PNG");
     if *raster != expected {
         let found = std::env::temp_dir().join(format!("{name}.png"));
         png::write(raster, File::create(&found).expect("a file")).expect("written");

@@ -5,7 +5,7 @@ use loschmidt_runner::Options;
 use loschmidt_runner::deck::{Command, Opening, Report};
 use loschmidt_viewer::session::{Button, Choice, Drag, Effect, Message, Mouse, Overlay, Request};
 use loschmidt_viewer::window::{Places, WindowMessage, WindowState, compose, update};
-use loschmidt_viewer::{Key, Look, Pane, Rgb, Theme, draw, png};
+use loschmidt_viewer::{Key, Look, Pane, Rgb, Theme, draw, picture, png};
 use std::io::Cursor;
 use std::sync::mpsc::channel;
 
@@ -45,7 +45,10 @@ fn the_window_is_its_png_and_the_rasterisers_frame_above_the_bar_of_time() {
     let pixels = compose(&state, SIZE);
     let mut file = Vec::new();
     png::write(&pixels, &mut file).expect("a PNG");
-    assert_eq!(png::read(Cursor::new(file), Rgb(0)).expect("a PNG"), pixels);
+    assert_eq!(
+        picture::read(Cursor::new(file), Rgb(0)).expect("a PNG"),
+        pixels
+    );
     let stage = state.session.stage.as_ref().expect("a scene");
     let places = Places::of(&state).expect("places");
     let look = Look {

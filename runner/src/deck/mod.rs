@@ -32,7 +32,7 @@ pub use messages::{
 };
 pub use opening::{Opening, OpeningError, Recorded};
 
-use crate::executor::Rayon;
+use crate::pool::Rayon;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, OnceLock};

@@ -12,9 +12,9 @@ use super::messages::{
 };
 use super::opening::{Opening, Recorded};
 use super::waypoints::Waypoints;
-use crate::executor::Rayon;
 use crate::player::{Arrow, Player};
 use crate::points::Points;
+use crate::pool::Rayon;
 use crate::run::{Plan, Row, RunError};
 use crate::saved::{ArithmeticKind, SavedState};
 use loschmidt_core::Fault;

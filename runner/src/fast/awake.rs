@@ -11,11 +11,23 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
+/// Work of any kind: what follows is then compiled once, and so is rayon's own code.
+type Task<'a> = &'a mut (dyn FnMut() + Send);
+
 /// Does `work` on this thread of a pool, the others looking for parts of it until it is done.
 pub(super) fn together<T>(work: impl FnOnce() -> T + Send) -> T
 where
     T: Send,
 {
+    let (mut work, mut result) = (Some(work), None);
+    with_the_others(&mut || result = work.take().map(|work| work()));
+    match result {
+        Some(result) => result,
+        None => unreachable!("the work is done, or has passed on its panic"),
+    }
+}
+
+fn with_the_others(work: Task<'_>) {
     let Some(me) = rayon::current_thread_index() else {
         return work();
     };
@@ -34,8 +46,8 @@ where
         });
         // Also after a panic, which would otherwise be waited for.
         let _done = Finally(|| working.store(false, Ordering::Release));
-        work()
-    })
+        work();
+    });
 }
 
 /// Calls `work` with every item, each on a thread of its own if there are enough.
@@ -43,30 +55,41 @@ pub(super) fn each<I: Send, O: Send>(
     items: impl ExactSizeIterator<Item = I>,
     work: impl Fn(I) -> O + Sync,
 ) -> Vec<O> {
-    let mut items = items;
     let mut results: Vec<Option<O>> = Vec::new();
     results.resize_with(items.len(), || None);
-    let Some((mine, others)) = results.split_first_mut() else {
-        return Vec::new();
+    let work = &work;
+    let tasks = items.zip(&mut results).map(|(item, result)| {
+        let mut item = Some(item);
+        move || *result = item.take().map(work)
+    });
+    let mut tasks: Vec<_> = tasks.collect();
+    all(tasks.iter_mut().map(|task| task as Task<'_>).collect());
+    drop(tasks);
+    results.into_iter().flatten().collect()
+}
+
+/// Does all of them, the first on this thread.
+fn all(tasks: Vec<Task<'_>>) {
+    let mut tasks = tasks.into_iter();
+    let Some(mine) = tasks.next() else {
+        return;
     };
-    let first = items.next();
-    let left = AtomicUsize::new(others.len());
+    let left = AtomicUsize::new(tasks.len());
     rayon::in_place_scope(|scope| {
-        for (item, result) in items.zip(others) {
-            let (work, left) = (&work, &left);
+        for task in tasks {
+            let left = &left;
             scope.spawn(move |_| {
                 let _done = Finally(|| left.fetch_sub(1, Ordering::Release));
-                *result = Some(work(item));
+                task();
             });
         }
-        *mine = first.map(&work);
+        mine();
         // Waiting at the end of the scope would put this thread to sleep.
         let mut search = Search::default();
         while left.load(Ordering::Acquire) > 0 {
             search.go_on();
         }
     });
-    results.into_iter().flatten().collect()
 }
 
 /// A search for work, with pauses that become longer when there is none: where more threads than

@@ -19,19 +19,16 @@
 use super::backend::Work;
 use super::lanes::{Quad, ROW, Reals};
 use super::layout::{Crew, Layout, Strip};
-use super::sweep::{Leg, Sums};
-use super::{LIMIT, Memory, larger};
+use super::memory::{Arguments, LIMIT, Memory, larger};
+use super::sweep::{Leg, Sums, add_received, contributors};
 use loschmidt_core::fields::{POSITION, Set};
-use loschmidt_core::number::{Accumulate, Quantity};
+use loschmidt_core::number::Quantity;
 use loschmidt_core::pairs::PairPass;
 use loschmidt_core::schemes::wcsph::{
     CONSTANT, DENSITY, DensityPass, IMPULSE, Pressed, PressureFactor, PressurePass, Pull, Water,
 };
 use loschmidt_core::{Arithmetic, Fault, FaultKind};
 use std::ops::Range;
-
-/// Arguments of the terms of three strips in turn.
-pub(super) type Arguments = [Vec<Reals>; 3];
 
 /// What finishing densities has shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -146,10 +143,10 @@ impl Memory {
         for part in layout.parts.iter().filter(|p| !p.is_empty() && p.start > 0) {
             let strip = layout.strips[part.start];
             let sums: Vec<_> = self.sums.iter().map(|[first, _]| first).collect();
-            let contributors = layout.contributors(1, &sums, &strip);
+            let from_parts = contributors(1, &sums, &strip);
             let density = &mut density[strip.places()];
             let words = &mut self.words[strip.rows()];
-            finish(kick, &contributors, strip, density, words, &mut found);
+            finish(kick, &from_parts, strip, density, words, &mut found);
         }
         found
     }
@@ -183,14 +180,14 @@ impl Memory {
             let mut found = Found::default();
             let from = layout.places_of(&strips).start;
             for strip in &layout.strips[strips] {
-                let contributors = layout.contributors(D, &sums, strip);
+                let from_parts = contributors(D, &sums, strip);
                 for k in 0..strip.len {
                     let place = strip.place + k;
                     let Some(mut sum) = kick.pull.at(&kick.position[place]) else {
                         found.fault(Fault::new(FaultKind::TermRange, kick.id[place]));
                         continue;
                     };
-                    add_received(&mut sum, &contributors, strip.slot + k);
+                    add_received(&mut sum, &from_parts, strip.slot + k);
                     impulse[place - from] = sum;
                 }
             }
@@ -198,19 +195,6 @@ impl Memory {
         });
         let found = found.into_iter().fold(Found::default(), Found::and);
         found.fault.map_or(Ok(()), Err)
-    }
-}
-
-/// Adds what a slot has received in all parts.
-#[inline(always)]
-pub(super) fn add_received<W: Accumulate>(sum: &mut [W], contributors: &[&Sums], slot: usize) {
-    let components = sum.len();
-    for (k, sum) in sum.iter_mut().enumerate() {
-        let mut received = 0i64;
-        for sums in contributors {
-            received = received.wrapping_add(sums.of(components, slot, k));
-        }
-        *sum = sum.plus_quanta(received);
     }
 }
 

@@ -18,7 +18,6 @@ use super::awake::each;
 use super::backend::{Backend, Work};
 use super::lanes::{Quad, ROW, Reals};
 use super::meets::Meets;
-use super::sweep::Sums;
 use loschmidt_core::Arithmetic;
 use loschmidt_core::fields::Set;
 use loschmidt_core::number::Quantity;
@@ -226,21 +225,6 @@ impl Layout {
         }
         let end = strips.end + self.farthest_forward::<D>();
         self.rows_of(&(strips.start..end.min(self.strips.len() - 1)))
-    }
-
-    /// Those of the sums, one for each part, to which this strip belongs.
-    pub fn contributors<'a>(
-        &self,
-        components: usize,
-        sums: &[&'a Sums],
-        strip: &Strip,
-    ) -> Vec<&'a Sums> {
-        let row = strip.slot / ROW;
-        let covers = |sums: &&&Sums| {
-            row.checked_sub(sums.first_row)
-                .is_some_and(|row| row * components < sums.rows.len())
-        };
-        sums.iter().filter(covers).copied().collect()
     }
 
     /// Splits something with `each` items a row among the parts.

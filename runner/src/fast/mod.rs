@@ -19,33 +19,31 @@ mod lanes;
 mod layout;
 mod making;
 mod meets;
+mod memory;
 mod sweep;
 mod walls;
 
 pub use backend::Backend;
 
 use crate::drive::{Drive, Group};
-use crate::executor::Rayon;
-use fused::{Arguments, add_received};
-use lanes::{ROW, Reals};
-use layout::{Crew, Layout};
+use crate::pool::Rayon;
+use layout::Crew;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
-use loschmidt_core::fields::{Operands, POSITION, Set, VELOCITY, read};
+use loschmidt_core::fields::{Operands, POSITION, Set, VELOCITY};
 use loschmidt_core::integrator::Stage;
 use loschmidt_core::model::{Model, Relax};
 use loschmidt_core::neighbours::{Cells, Grid};
-use loschmidt_core::pairs::{PairPass, Sources, Targets, read_count, term_count};
+use loschmidt_core::pairs::{PairPass, Sources, Targets, term_count};
 use loschmidt_core::points::{PointPass, visit};
 use loschmidt_core::schemes::wcsph::{Filtered, IMPULSE, Symplectic};
 use loschmidt_core::shears;
-use loschmidt_core::values::Values;
 use loschmidt_core::{Arithmetic, Executor, Fault, System};
+use memory::{LIMIT, Memory};
 use std::any::Any;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use sweep::{Sums, Sweep};
-use walls::NearWalls;
+use sweep::{Sweep, add_received, contributors};
 
 /// Vectorised half-pair sweeps on strips.
 #[derive(Debug)]
@@ -58,75 +56,8 @@ pub struct Fast {
     plain: AtomicBool,
 }
 
-/// What outlives a step.
-#[derive(Debug, Default)]
-struct Memory {
-    layout: Layout,
-    /// What a pass reads, by row.
-    words: Vec<Reals>,
-    /// First and second sums of each part.
-    sums: Vec<[Sums; 2]>,
-    /// Arguments of the terms of three strips, for each part.
-    arguments: Vec<Arguments>,
-    walls: NearWalls,
-}
-
 /// Fewest items worth a thread of their own.
 const ITEMS_PER_THREAD: usize = 4000;
-/// Terms of this magnitude and more, in quanta, are out of range: 2^51.
-const LIMIT: f64 = (1u64 << 51) as f64;
-
-/// The larger magnitude, and a NaN before all: as integers the bits of magnitudes are in order.
-#[inline(always)]
-fn larger(largest: f64, word: f64) -> f64 {
-    f64::from_bits(largest.to_bits().max(word.abs().to_bits()))
-}
-
-impl Memory {
-    /// Copies what the pass reads into rows; returns the largest magnitudes.
-    fn load<A, P, const D: usize>(&mut self, to: &Targets<'_, A, D>) -> P::Read<f64>
-    where
-        A: Arithmetic,
-        P: PairPass<D>,
-    {
-        let each = read_count::<P, D>();
-        if each == 0 {
-            return P::Read::<f64>::from_fn(|_| 0.0);
-        }
-        let layout = &self.layout;
-        self.words
-            .resize(layout.all_rows() * each, Reals::default());
-        let parts = layout.split_rows(&mut self.words, each);
-        let largest = layout.for_parts(parts, |strips, rows| {
-            let mut largest = vec![0.0; each];
-            let first_row = layout.rows_of(&strips).start;
-            for strip in &layout.strips[strips] {
-                let rows = &mut rows[(strip.rows().start - first_row) * each..];
-                let rows = &mut rows[..strip.rows().len() * each];
-                // The last row may hold fewer particles than slots: the rest must not keep old
-                // numbers, which a sweep would load along with the others.
-                if let Some(last) = rows.len().checked_sub(each) {
-                    rows[last..].fill(Reals::default());
-                }
-                for (k, place) in strip.places().enumerate() {
-                    let row = &mut rows[k / ROW * each..][..each];
-                    let values: P::Read<f64> = read(to.read, place);
-                    for (c, row) in row.iter_mut().enumerate() {
-                        let value = values.get(c);
-                        row.0[k % ROW] = value;
-                        largest[c] = larger(largest[c], value);
-                    }
-                }
-            }
-            largest
-        });
-        P::Read::<f64>::from_fn(|c| {
-            let parts = largest.iter().map(|part| part[c]);
-            parts.fold(0.0, larger)
-        })
-    }
-}
-
 impl Fast {
     /// With at most so many threads.
     ///
@@ -238,9 +169,9 @@ impl Fast {
         layout.for_parts(layout.split_places(out, term), |strips, out| {
             let mut out = out.chunks_exact_mut(term);
             for strip in &layout.strips[strips] {
-                let contributors = layout.contributors(term, &sums, strip);
+                let from_parts = contributors(term, &sums, strip);
                 for (slot, out) in (strip.slot..strip.slot + strip.len).zip(&mut out) {
-                    add_received(out, &contributors, slot);
+                    add_received(out, &from_parts, slot);
                 }
             }
         });

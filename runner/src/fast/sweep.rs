@@ -14,6 +14,7 @@ use super::backend::Work;
 use super::lanes::{Pack, Quad, ROW, Reals, Words};
 use super::layout::{Layout, Strip};
 use super::meets::{Meeting, Meets, step};
+use loschmidt_core::number::Accumulate;
 use loschmidt_core::pairs::{PairPass, Parity, read_count, term_count};
 use loschmidt_core::values::Values;
 use std::ops::Range;
@@ -62,6 +63,33 @@ impl Sums {
     #[inline(always)]
     pub fn of(&self, components: usize, slot: usize, k: usize) -> i64 {
         self.rows[(slot / ROW - self.first_row) * components + k].0[slot % ROW]
+    }
+}
+
+/// Those of the sums, one for each part, to which this strip belongs.
+pub(super) fn contributors<'a>(
+    components: usize,
+    sums: &[&'a Sums],
+    strip: &Strip,
+) -> Vec<&'a Sums> {
+    let row = strip.slot / ROW;
+    let covers = |sums: &&&Sums| {
+        row.checked_sub(sums.first_row)
+            .is_some_and(|row| row * components < sums.rows.len())
+    };
+    sums.iter().filter(covers).copied().collect()
+}
+
+/// Adds what a slot has received in all parts.
+#[inline(always)]
+pub(super) fn add_received<W: Accumulate>(sum: &mut [W], contributors: &[&Sums], slot: usize) {
+    let components = sum.len();
+    for (k, sum) in sum.iter_mut().enumerate() {
+        let mut received = 0i64;
+        for sums in contributors {
+            received = received.wrapping_add(sums.of(components, slot, k));
+        }
+        *sum = sum.plus_quanta(received);
     }
 }
 

@@ -3,7 +3,7 @@
 use loschmidt_runner::frame::Frame;
 use loschmidt_runner::output::particles_csv::{self, CsvWriter};
 
-use crate::made::{bits, frames, particles};
+use super::made::{bits, frames, particles};
 
 pub fn csv(frame: &Frame) -> String {
     let mut bytes = Vec::new();

@@ -6,7 +6,7 @@ use loschmidt_runner::output::pvd::Collection;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 
-use crate::vtp::attribute;
+use super::vtp::attribute;
 
 #[test]
 fn a_collection_lists_its_files_in_order() {

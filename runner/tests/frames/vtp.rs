@@ -7,8 +7,8 @@ use loschmidt_runner::output::vtp::VtpWriter;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
-use crate::csv::csv;
-use crate::made::{frame, frames, particles};
+use super::csv::csv;
+use super::made::{frame, frames, particles};
 
 pub fn vtp(frame: &Frame) -> String {
     let mut bytes = Vec::new();

@@ -6,6 +6,7 @@ mod reproduce;
 mod run;
 mod scenes;
 mod tui;
+#[cfg(feature = "window")]
 mod view;
 
 use crate::cli::{ProgramArguments, ProgramCommand, RunArguments, TuiArguments};
@@ -23,6 +24,7 @@ pub fn execute(arguments: ProgramArguments) -> Result<ExitCode, Failure> {
         None => run::run(&RunArguments::default()),
         Some(ProgramCommand::Run(arguments)) => run::run(&arguments),
         Some(ProgramCommand::Tui(arguments)) => tui::tui(&arguments),
+        #[cfg(feature = "window")]
         Some(ProgramCommand::View(arguments)) => view::view(&arguments),
         Some(ProgramCommand::Resume(arguments)) => run::resume(&arguments),
         Some(ProgramCommand::Movie(arguments)) => movie::movie(&arguments),

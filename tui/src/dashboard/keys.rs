@@ -1,11 +1,11 @@
 //! From the terminal's events to messages.
 
 use super::message::DashboardMessage;
-use loschmidt_viewer::Key;
-use loschmidt_viewer::session::{Button, Message, Mouse};
-use ratatui::crossterm::event::{
+use crossterm::event::{
     Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
 };
+use loschmidt_viewer::Key;
+use loschmidt_viewer::session::{Button, Message, Mouse};
 
 /// What an event of the terminal means; `None` for those that mean nothing here.
 pub fn message(event: Event) -> Option<DashboardMessage> {

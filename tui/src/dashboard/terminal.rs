@@ -3,14 +3,14 @@
 use super::keys;
 use super::message::DashboardMessage;
 use super::state::DashboardState;
-use loschmidt_runner::Deck;
-use ratatui::backend::CrosstermBackend;
-use ratatui::crossterm::event::{self, DisableMouseCapture, EnableMouseCapture};
-use ratatui::crossterm::terminal::{
+use crossterm::event::{self, DisableMouseCapture, EnableMouseCapture};
+use crossterm::terminal::{
     BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
     SetTitle, disable_raw_mode, enable_raw_mode,
 };
-use ratatui::crossterm::{cursor, execute, queue};
+use crossterm::{cursor, execute, queue};
+use loschmidt_runner::Deck;
+use ratatui::backend::CrosstermBackend;
 use std::io::{BufWriter, IsTerminal, Stdout, Write, stdout};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -78,7 +78,7 @@ impl Terminal {
 
     /// Columns and rows.
     pub fn size(&self) -> std::io::Result<(u16, u16)> {
-        ratatui::crossterm::terminal::size()
+        crossterm::terminal::size()
     }
 
     /// Sends what the keyboard, the mouse and the window's frame say, from a thread of its own.

@@ -12,8 +12,8 @@
 use super::error::MovieError;
 use super::{Style, Times};
 use crate::colour::Rgb;
-use crate::png;
 use crate::raster::Raster;
+use crate::{picture, png};
 use loschmidt_core::digest::hash;
 use serde::{Deserialize, Serialize};
 use std::fs::{self, File};
@@ -280,11 +280,11 @@ fn remove(path: &Path) -> Result<(), MovieError> {
 /// Reads one of the pictures, or one to tint with.
 ///
 /// # Errors
-/// It is missing or not a PNG.
+/// It is missing or not a picture.
 pub(super) fn read_picture(path: &Path) -> Result<Raster, MovieError> {
     File::open(path)
         .map_err(Into::into)
-        .and_then(|file| png::read(BufReader::new(file), Rgb(0xff_ff_ff)))
+        .and_then(|file| picture::read(BufReader::new(file), Rgb(0xff_ff_ff)))
         .map_err(|source| MovieError::Picture {
             path: path.to_owned(),
             source,
@@ -295,7 +295,7 @@ impl crate::Picture {
     /// Reads a picture to tint with; transparent parts are white.
     ///
     /// # Errors
-    /// It is missing or not a PNG.
+    /// It is missing or not a picture.
     pub fn open(path: &Path) -> Result<Self, MovieError> {
         Ok(Self::new(read_picture(path)?))
     }

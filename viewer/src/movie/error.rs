@@ -34,12 +34,12 @@ pub enum MovieError {
         source: std::io::Error,
     },
     /// A picture that cannot be read.
-    #[error("{} cannot be read as a PNG picture: {source}", path.display())]
+    #[error("{} cannot be read as a picture: {source}", path.display())]
     Picture {
         /// The file.
         path: PathBuf,
         /// Why not.
-        source: crate::png::ReadError,
+        source: crate::picture::ReadError,
     },
     /// A run that is still to come to its end.
     #[error("the run in {} has not finished; go on with\n    loschmidt resume {}", .0.display(), .0.display())]

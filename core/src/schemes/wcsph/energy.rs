@@ -6,7 +6,8 @@
 //! - gravitational -Σ m g·x, zero at the origin, minus Σ m GM/(|x|² + s²)^(1/2)
 //! - wall          Σ m E (s - 1)²/4 (footnote 3: E per mass), or the dummies' m ε(ρ)
 
-use super::water::{DENSITY, Water};
+use super::fields::DENSITY;
+use super::water::Water;
 use crate::exact::ExactSum;
 use crate::fault::{Fault, FaultKind};
 use crate::fields::{Side, View};

@@ -15,10 +15,10 @@
 //!
 //! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, appendix A.
 
+use super::fields::IMPULSE;
 use super::parameters::Parameters;
 use super::symplectic::Symplectic;
 use super::updates::{Average, NoImpulse};
-use super::water::IMPULSE;
 use crate::executor::Executor;
 use crate::fault::Fault;
 use crate::fields::VELOCITY;

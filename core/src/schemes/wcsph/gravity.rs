@@ -2,8 +2,8 @@
 //!
 //! J = R(c dt g) + R(-c dt GM x/(|x|² + s²)^(3/2)), x measured from the centre of the mass.
 
+use super::fields::IMPULSE;
 use super::parameters::{Central, Parameters};
-use super::water::IMPULSE;
 use crate::fault::{Fault, FaultKind};
 use crate::fields::POSITION;
 use crate::number::{Arithmetic, Quantity, sqrt};

@@ -6,6 +6,7 @@
 //! out, which no reversal brings back.
 
 mod energy;
+mod fields;
 mod filtered;
 mod gravity;
 mod parameters;
@@ -16,6 +17,7 @@ mod symplectic;
 mod updates;
 mod water;
 
+pub use fields::{CONSTANT, DENSITY, FIXED_DENSITY, IMPULSE, PRESSURE};
 pub use filtered::{Filter, Filtered};
 pub use gravity::Pull;
 pub use parameters::{AntiClump, Central, DensityCorrection, Gravity, Parameters, Wall};
@@ -27,4 +29,4 @@ pub use standard::Standard;
 pub use state_equation::StateEquation;
 pub use symplectic::Symplectic;
 pub use updates::PressureFactor;
-pub use water::{CONSTANT, DENSITY, FIXED_DENSITY, IMPULSE, PRESSURE, Water};
+pub use water::Water;

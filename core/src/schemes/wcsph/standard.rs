@@ -13,9 +13,10 @@
 //! grows until the run ends (Fig. 2 of Kincl & Pavelka 2023). The integrator table is not used.
 
 use super::energy;
+use super::fields::{CONSTANT, IMPULSE, fields};
 use super::parameters::Parameters;
 use super::updates::Evolved;
-use super::water::{CONSTANT, IMPULSE, Water, fields};
+use super::water::Water;
 use crate::executor::Executor;
 use crate::fault::Fault;
 use crate::fields::{Field, Side, VELOCITY, View};

@@ -10,9 +10,10 @@
 //! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, sections 2 to 4.
 
 use super::energy;
+use super::fields::{CONSTANT, DENSITY, IMPULSE, fields};
 use super::parameters::Parameters;
 use super::updates::{Corrected, Fixed};
-use super::water::{IMPULSE, Water, fields};
+use super::water::Water;
 use crate::executor::Executor;
 use crate::fault::Fault;
 use crate::fields::{Field, Side, View};
@@ -92,7 +93,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
             to: Side::Walls,
             from: Side::Walls,
             read: &[],
-            into: super::DENSITY,
+            into: DENSITY,
         };
         system.sum(exec, &self.water.density_pass(), of_walls)?;
         exec.points(&Fixed, &mut system.walls)
@@ -105,10 +106,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         exec: &E,
     ) -> Result<(), Fault> {
         system.clock.initialised = true;
-        system
-            .walls
-            .words_mut(super::CONSTANT)
-            .fill_with(Default::default);
+        system.walls.words_mut(CONSTANT).fill_with(Default::default);
         self.place_walls(system, exec)?;
         self.water.locate(system, exec);
         self.water.bare_densities(system, exec)?;

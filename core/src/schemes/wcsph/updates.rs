@@ -1,7 +1,7 @@
 //! What happens to one particle between the sums over pairs.
 
+use super::fields::{CONSTANT, DENSITY, FIXED_DENSITY, IMPULSE, PRESSURE};
 use super::state_equation::StateEquation;
-use super::water::{CONSTANT, DENSITY, FIXED_DENSITY, IMPULSE, PRESSURE};
 use crate::fault::{Fault, FaultKind};
 use crate::fields::VELOCITY;
 use crate::number::{Arithmetic, Quantity, Word};

@@ -16,9 +16,9 @@ use loschmidt_runner::output::pvd::Collection;
 use loschmidt_runner::output::vtp::VtpWriter;
 use loschmidt_runner::output::{COLLECTION, frame_path};
 
-use crate::csv::csv;
-use crate::made::{frame, frames};
-use crate::vtp::vtp;
+use self::csv::csv;
+use self::made::{frame, frames};
+use self::vtp::vtp;
 
 #[test]
 fn a_used_writer_writes_what_a_new_one_does() {
