@@ -1,7 +1,7 @@
 //! A reduced report: targets hold, go on after an interruption, and make pages that stand alone.
 
 use loschmidt_reproduce::reference::{at, distance, koshizuka_oka, violeau};
-use loschmidt_reproduce::{Lab, LabError, Target, report};
+use loschmidt_reproduce::{Lab, LabError, Section, Target, report};
 use loschmidt_runner::Options;
 use std::fs;
 use std::path::Path;
@@ -128,4 +128,22 @@ fn a_directory_of_other_origin_is_left_alone() {
         assert!(matches!(refused, Err(LabError::Occupied { .. })));
     }
     assert_eq!(fs::read_dir(dir.path()).expect("entries").count(), 1);
+}
+
+#[test]
+fn with_force_sections_are_made_anew_and_other_files_stay() {
+    let dir = tempfile::tempdir().expect("a directory");
+    let stop = AtomicBool::new(false);
+    let section = Section {
+        target: "fig6".to_owned(),
+        ..Section::default()
+    };
+    let first = lab(dir.path(), &stop, false).expect("a lab");
+    first.keep(&section).expect("a section");
+    fs::write(dir.path().join("notes.json"), "{}").expect("a file");
+    let again = lab(dir.path(), &stop, false).expect("the same lab");
+    assert_eq!(again.kept("fig6"), Some(section));
+    let anew = lab(dir.path(), &stop, true).expect("the lab again");
+    assert_eq!(anew.kept("fig6"), None);
+    assert!(dir.path().join("notes.json").exists());
 }
