@@ -7,6 +7,7 @@
 //! 1. [`scene`]: the scene language, its errors, the catalogue.
 //!    [`isc`] corrects the initial state so that no density constants are needed.
 //! 2. [`setup`]: a scene's parameters for the core, and the memory it takes.
+//!    [`own`]: models of one's own.
 //! 3. [`simulation`]: a simulation without type parameters; [`Rayon`] and [`fast`], the parallel
 //!    executors.
 //! 4. [`player`]: moves along time in both directions. Going back is integrating back.
@@ -24,7 +25,9 @@ pub mod fast;
 pub mod filter;
 pub mod frame;
 pub mod isc;
+mod model_list;
 pub mod output;
+pub mod own;
 pub mod player;
 pub mod points;
 mod pool;

@@ -6,10 +6,13 @@ pub use limits::{fixed_limits, force_limit};
 
 use crate::engine::simulate;
 use crate::isc;
+use crate::model_list::for_each_model;
+use crate::own::{self, OwnModel};
 use crate::saved::ArithmeticKind;
 use crate::scene::{self, InitialState, Scene, Vector3};
 use crate::simulation::{BuildError, Options, Simulation};
 use crate::storage;
+use loschmidt_core::fields::Field;
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
 use loschmidt_core::model::{Measure, Model};
 use loschmidt_core::schemes::wcsph::{
@@ -26,42 +29,68 @@ pub fn simulation(
     initial: &InitialState,
     options: &Options,
 ) -> Result<Box<dyn Simulation>, BuildError> {
+    use ArithmeticKind as A;
+    use scene::Dimension as D;
+    if let scene::Model::Own(name) = scene.model {
+        let model = own::find(name).ok_or(BuildError::UnknownModel(name))?;
+        return (model.build)(scene, initial, options);
+    }
     match (scene.dimension, options.arithmetic) {
-        (scene::Dimension::Two, ArithmeticKind::Fixed) => {
-            build::<Fixed, 2>(scene, initial, options)
-        }
-        (scene::Dimension::Two, ArithmeticKind::Float) => {
-            build::<Float, 2>(scene, initial, options)
-        }
-        (scene::Dimension::Three, ArithmeticKind::Fixed) => {
-            build::<Fixed, 3>(scene, initial, options)
-        }
-        (scene::Dimension::Three, ArithmeticKind::Float) => {
-            build::<Float, 3>(scene, initial, options)
-        }
+        (D::Two, A::Fixed) => build::<Fixed, 2>(scene, initial, options),
+        (D::Two, A::Float) => build::<Float, 2>(scene, initial, options),
+        (D::Three, A::Fixed) => build::<Fixed, 3>(scene, initial, options),
+        (D::Three, A::Float) => build::<Float, 3>(scene, initial, options),
     }
 }
 
-fn build<A: Arithmetic, const D: usize>(
-    scene: &Scene,
-    initial: &InitialState,
-    options: &Options,
-) -> Result<Box<dyn Simulation>, BuildError> {
-    let p = parameters::<D>(scene, initial);
-    match scene.model {
-        scene::Model::Symplectic => simulate(Symplectic::<A, D>::new(p)?, initial, options),
-        scene::Model::Standard => simulate(Standard::<A, D>::new(p)?, initial, options),
-        scene::Model::Filtered => simulate(Filter::<A, D>::filtered(p)?, initial, options),
-    }
+/// Makes the model of a scene out of the list.
+macro_rules! build_models {
+    (
+        $(
+            $(#[$doc:meta])*
+            $variant:ident = $word:literal, keys $family:ident, made by $made:path,
+            except [$($exclusion:expr)?];
+        )+
+    ) => {
+        fn build<A: Arithmetic, const D: usize>(
+            scene: &Scene,
+            initial: &InitialState,
+            options: &Options,
+        ) -> Result<Box<dyn Simulation>, BuildError> {
+            let parameters = parameters::<D>(scene, initial);
+            match scene.model {
+                $(scene::Model::$variant => {
+                    let model = $made(parameters)?;
+                    simulate::<A, _, D>(model, initial, options)
+                })+
+                scene::Model::Own(name) => Err(BuildError::UnknownModel(name)),
+            }
+        }
+    };
 }
+for_each_model!(build_models);
 
 /// What is recorded of a particle of the scene besides position and velocity.
 #[must_use]
 pub fn columns(scene: &Scene) -> &'static [Measure] {
+    match own_of(scene) {
+        Some(model) => model.columns,
+        None => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
+    }
+}
+
+/// What a particle of the scene consists of.
+fn fields(scene: &Scene) -> &'static [Field] {
+    match own_of(scene) {
+        Some(model) => model.fields,
+        None => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
+    }
+}
+
+fn own_of(scene: &Scene) -> Option<OwnModel> {
     match scene.model {
-        scene::Model::Symplectic | scene::Model::Standard | scene::Model::Filtered => {
-            <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS
-        }
+        scene::Model::Own(name) => own::find(name),
+        _ => None,
     }
 }
 
@@ -188,8 +217,7 @@ pub fn estimated_bytes(scene: &Scene) -> u64 {
         scene::Dimension::Three => 3,
     };
     let buckets = 2 * max_buckets((fluid + walls) as usize) as u64;
-    let fields = <Symplectic<Fixed, 2> as Model<Fixed, 2>>::FIELDS;
-    let system = storage::bytes(fields, dimension, fluid, walls, buckets);
+    let system = storage::bytes(fields(scene), dimension, fluid, walls, buckets);
     let initial = 48 * fluid + 24 * walls;
     let axes = dimension as u64;
     let saved = 3 * 8 * ((2 * axes + 2) * fluid + (axes + 1) * walls);

@@ -66,6 +66,9 @@ pub enum BuildError {
     /// No threads.
     #[error("cannot start the threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
+    /// A scene whose model this program has not registered.
+    #[error("this program does not know the model `{0}` of the scene")]
+    UnknownModel(&'static str),
     /// A saved state of another scene.
     #[error("the saved state does not belong to this scene: {0}")]
     Foreign(&'static str),

@@ -1,7 +1,6 @@
 //! Checks what was written against the [schema](super::schema): every key is known, every
 //! value has its key's type and range. All mistakes are collected.
 
-use super::builder::Here;
 use super::error::{Problem, ProblemKind};
 use super::model::Model;
 use super::nearest::nearest;
@@ -10,7 +9,7 @@ use super::schema::{Family, Form, Range, SceneKey, TableRules, ValueType, listed
 use super::spec::{Node, SceneSpec, Span, WrittenTable, WrittenValue};
 use super::types::TOP;
 use super::values::number;
-use super::words::{ChoiceWord, Dimension};
+use super::words::Dimension;
 
 /// Every mistake that can be seen in one value alone.
 pub(super) fn check(spec: &SceneSpec) -> Vec<Problem> {
@@ -41,7 +40,7 @@ pub(super) fn dimension(root: &WrittenTable) -> Option<Dimension> {
 /// The keys that the model of a scene has; `None` when the model is written wrongly.
 pub(super) fn family(root: &WrittenTable) -> Option<Family> {
     let model: Option<Model> = match root.get("model").map(|entry| &entry.node.value) {
-        None => Here::top(root, TOP).default_word("model"),
+        None => Some(Model::Symplectic),
         Some(WrittenValue::Text(word)) => Model::from_word(word),
         Some(_) => None,
     };
@@ -158,6 +157,9 @@ impl Checker<'_> {
             (ValueType::Choice(words), WrittenValue::Text(word)) => {
                 self.choice(key, words, word, node.span)
             }
+            (ValueType::Model(_), WrittenValue::Text(word)) => {
+                self.choice(key, &Model::known(), word, node.span)
+            }
             (ValueType::Dimension, WrittenValue::Integer(2 | 3)) => {}
             (ValueType::Dimension, WrittenValue::Integer(n)) => {
                 let message = format!("`dimension` is {n}");
@@ -205,6 +207,10 @@ impl Checker<'_> {
             ValueType::Choice(words) => (
                 "a word in quotation marks".to_owned(),
                 vec![format!("allowed: {}", quoted(words, "or"))],
+            ),
+            ValueType::Model(_) => (
+                "a word in quotation marks".to_owned(),
+                vec![format!("allowed: {}", quoted(&Model::known(), "or"))],
             ),
             ValueType::Dimension => ("2 or 3".to_owned(), Vec::new()),
             ValueType::Whole => (in_unit("a whole number", key), allowed(key)),

@@ -1,14 +1,18 @@
-//! The models that a scene can choose from: one table, one entry for each.
+//! The models that a scene can choose from: those of [`crate::model_list`], and those that a program
+//! has registered.
 //!
-//! An entry names the model's word, the family whose keys it reads, and what it does not go with.
-//! To add a model, add an entry here; if it has keys of its own, declare them in a module beside
-//! [`wcsph`] with a family of their own (see [`declare`](super::declare)), and put the group or
-//! table that they make up into the declaration of [`Scene`](super::Scene). Keys of another family
-//! are refused in a scene, and left out where it is printed.
+//! If a model has keys of its own, declare them in a module beside [`wcsph`] with a family of their
+//! own (see [`declare`](super::declare)), and put the group or table that they make up into the
+//! declaration of [`Scene`](super::Scene). Keys of another family are refused in a scene, and left
+//! out where it is printed.
 
-use super::schema::Family;
+use super::builder::{Builder, Here};
+use super::declare::KeyValue;
+use super::page::{Page, text};
+use super::schema::{Family, ValueType};
 use super::wcsph;
-use super::words::{ChoiceWord, words};
+use crate::model_list::for_each_model;
+use std::sync::{PoisonError, RwLock};
 
 /// A key that a model does not go with.
 pub(super) struct Exclusion {
@@ -18,50 +22,100 @@ pub(super) struct Exclusion {
     pub help: &'static str,
 }
 
-/// Declares [`Model`] and what is known of each from one list.
-macro_rules! models {
+/// Declares [`Model`] and what is known of each from the list.
+macro_rules! scene_models {
     (
         $(
             $(#[$doc:meta])*
-            $variant:ident = $word:literal, $family:expr, $exclusions:expr;
+            $variant:ident = $word:literal, keys $family:ident, made by $made:path,
+            except [$($exclusion:expr)?];
         )+
     ) => {
-        words! {
-            /// Which discretisation advances the fluid.
-            Model { $($(#[$doc])* $variant = $word,)+ }
+        /// Which discretisation advances the fluid.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Model {
+            $($(#[$doc])* $variant,)+
+            /// One that the program has registered, by its name ([`crate::own`]).
+            Own(&'static str),
         }
 
         impl Model {
+            /// Every word of the models of this package, as a scene spells it.
+            pub const WORDS: &'static [&'static str] = &[$($word),+];
+
+            /// The word a scene uses for this value.
+            #[must_use]
+            pub const fn word(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $word,)+
+                    Self::Own(name) => name,
+                }
+            }
+
+            fn of_this_package(word: &str) -> Option<Self> {
+                match word { $($word => Some(Self::$variant),)+ _ => None }
+            }
+
             /// The models that share keys with this one.
             pub(super) const fn family(self) -> Family {
-                match self { $(Self::$variant => $family,)+ }
+                match self {
+                    $(Self::$variant => $family::FAMILY,)+
+                    Self::Own(_) => wcsph::FAMILY,
+                }
             }
 
             /// What this model does not go with.
             pub(super) const fn exclusions(self) -> &'static [Exclusion] {
-                match self { $(Self::$variant => $exclusions,)+ }
+                match self {
+                    $(Self::$variant => &[$($exclusion)?],)+
+                    Self::Own(_) => &[],
+                }
             }
         }
     };
 }
+for_each_model!(scene_models);
 
-models! {
-    /// Density by summation over the neighbours: Hamiltonian and reversible.
-    Symplectic = "symplectic", wcsph::FAMILY, &[];
-    /// Density advanced in time by the continuity equation: not reversible.
-    Standard = "standard", wcsph::FAMILY, &[Exclusion {
-        key: "integrator",
-        unless: Some("stormer-verlet"),
-        help: "the standard scheme has a kick, a drift and a kick of its own: \
-               write `integrator = \"stormer-verlet\"`, or `model = \"symplectic\"`",
-    }];
-    /// The symplectic scheme with its noise filtered out every few steps: dissipative.
-    Filtered = "filtered", wcsph::FAMILY, &[Exclusion {
-        key: "turnaround",
-        unless: None,
-        help: "the filter takes noise and energy out of the flow, and nothing brings them back: \
-               write `end`, or `model = \"symplectic\"`",
-    }];
+/// Names of the models that the program has registered.
+static OWN: RwLock<Vec<&'static str>> = RwLock::new(Vec::new());
+
+impl KeyValue for Model {
+    const KIND: ValueType = ValueType::Model(Self::WORDS);
+
+    fn read<'a>(builder: &mut Builder<'a>, here: Here<'a>, name: &'static str) -> Self {
+        let word = builder.text(here, name);
+        word.and_then(Self::from_word).unwrap_or(Self::Symplectic)
+    }
+
+    fn print(value: Option<&Self>, page: &mut Page, name: &'static str) {
+        page.value(name, value.map(|value| text(value.word())));
+    }
+}
+
+impl Model {
+    /// Lets scenes name a model that the program has registered.
+    pub(crate) fn know(name: &'static str) {
+        let mut own = OWN.write().unwrap_or_else(PoisonError::into_inner);
+        if !own.contains(&name) {
+            own.push(name);
+        }
+    }
+
+    /// The model that a word stands for.
+    pub(super) fn from_word(word: &str) -> Option<Self> {
+        let own = || {
+            let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
+            let name = own.iter().find(|name| **name == word)?;
+            Some(Self::Own(name))
+        };
+        Self::of_this_package(word).or_else(own)
+    }
+
+    /// Every word that a scene may write.
+    pub(super) fn known() -> Vec<&'static str> {
+        let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
+        Self::WORDS.iter().chain(&*own).copied().collect()
+    }
 }
 
 impl Model {

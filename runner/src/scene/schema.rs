@@ -76,6 +76,8 @@ pub(super) enum ValueType {
     Text,
     /// One of these words.
     Choice(&'static [&'static str]),
+    /// One of these words, or the name of a model that the program has registered.
+    Model(&'static [&'static str]),
     /// The whole number 2 or 3.
     Dimension,
     /// A finite number.
@@ -191,7 +193,7 @@ impl SceneKey {
     pub fn unit_label(&self) -> String {
         match self.kind {
             ValueType::Text => "text".to_owned(),
-            ValueType::Choice(words) => quoted(words, "or"),
+            ValueType::Choice(words) | ValueType::Model(words) => quoted(words, "or"),
             ValueType::Dimension => "2 or 3".to_owned(),
             ValueType::Table(_) | ValueType::Tables(_) => "table".to_owned(),
             _ if self.unit.is_empty() => "no unit".to_owned(),
