@@ -223,17 +223,33 @@ impl<W: Word> Column<'_, W> {
 pub fn read<V: Values<f64>, W: Word>(columns: &[Column<'_, W>], place: usize) -> V {
     match columns {
         // Most passes read one field; it needs no search for the column of a component.
-        [column] => V::from_fn(|c| column.value(place, c)),
-        _ => V::from_fn(|mut c| {
-            for column in columns {
-                if c < column.each {
-                    return column.value(place, c);
-                }
-                c -= column.each;
+        [column] if column.each == V::COUNT => {
+            let words = &column.words[place * V::COUNT..][..V::COUNT];
+            if column.real {
+                V::from_fn(
+                    #[inline(always)]
+                    |c| words[c].real(),
+                )
+            } else {
+                V::from_fn(
+                    #[inline(always)]
+                    |c| words[c].quanta(),
+                )
             }
-            unreachable!("the pass reads more numbers than its fields hold")
-        }),
+        }
+        _ => V::from_fn(|c| value_of(columns, place, c)),
     }
+}
+
+/// Number c of those of several columns.
+fn value_of<W: Word>(columns: &[Column<'_, W>], place: usize, mut c: usize) -> f64 {
+    for column in columns {
+        if c < column.each {
+            return column.value(place, c);
+        }
+        c -= column.each;
+    }
+    unreachable!("the pass reads more numbers than its fields hold")
 }
 
 /// Refuses memory that is too small.
@@ -578,7 +594,11 @@ impl<'a, W: Word> Operands<'a, W> {
     #[must_use]
     pub fn read<V: Values<W>>(&self, place: usize) -> V {
         if V::COUNT == self.read_each[0] {
-            return V::from_fn(|c| self.read[0][place * V::COUNT + c]);
+            let words = &self.read[0][place * V::COUNT..][..V::COUNT];
+            return V::from_fn(
+                #[inline(always)]
+                |c| words[c],
+            );
         }
         V::from_fn(|c| {
             let (k, c) = operand_of(&self.read_each, c);
@@ -591,7 +611,11 @@ impl<'a, W: Word> Operands<'a, W> {
     #[must_use]
     pub fn load<V: Values<W>>(&self, place: usize) -> V {
         if V::COUNT == self.write_each[0] {
-            return V::from_fn(|c| self.write[0][place * V::COUNT + c]);
+            let words = &self.write[0][place * V::COUNT..][..V::COUNT];
+            return V::from_fn(
+                #[inline(always)]
+                |c| words[c],
+            );
         }
         V::from_fn(|c| {
             let (k, c) = operand_of(&self.write_each, c);
@@ -602,6 +626,13 @@ impl<'a, W: Word> Operands<'a, W> {
     /// Writes.
     #[inline(always)]
     pub fn store<V: Values<W>>(&mut self, place: usize, values: V) {
+        if V::COUNT == self.write_each[0] {
+            let words = &mut self.write[0][place * V::COUNT..][..V::COUNT];
+            for (c, word) in words.iter_mut().enumerate() {
+                *word = values.get(c);
+            }
+            return;
+        }
         for c in 0..V::COUNT {
             let (k, within) = operand_of(&self.write_each, c);
             self.write[k][place * self.write_each[k] + within] = values.get(c);

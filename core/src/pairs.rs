@@ -95,12 +95,15 @@ pub struct Sources<'a, A: Arithmetic, const D: usize> {
 }
 
 /// x_i - x_j in length quanta, and its square.
-#[inline]
+#[inline(always)]
 pub fn separation<A: Arithmetic, const D: usize>(
     x_i: &[A::Length; D],
     x_j: &[A::Length; D],
 ) -> ([f64; D], f64) {
-    let x_ij: [f64; D] = core::array::from_fn(|d| x_i[d].difference(x_j[d]));
+    let mut x_ij = [0.0; D];
+    for d in 0..D {
+        x_ij[d] = x_i[d].difference(x_j[d]);
+    }
     let mut r2 = x_ij[0] * x_ij[0];
     for x in &x_ij[1..] {
         r2 += *x * *x;
@@ -140,9 +143,7 @@ where
     S: Accumulate,
 {
     let mut gathering = Gathering::new(pass, to, i, from, sum);
-    from.cells.around(from.grid, &to.position[i], |run| {
-        gathering.add(run);
-    });
+    from.cells.around(from.grid, &to.position[i], |run| gathering.add(run));
     gathering.end()
 }
 
@@ -181,19 +182,22 @@ impl<'a, A: Arithmetic, P: PairPass<D>, S: Accumulate, const D: usize> Gathering
     }
 
     /// Adds the terms of those candidates that are within reach.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, candidates: &[u32]) {
-        let reach_squared = self.pass.reach_squared();
+        let (pass, from, skip) = (self.pass, self.from, self.skip);
+        let (x_i, read_i) = (*self.x_i, self.read_i);
+        let reach_squared = pass.reach_squared();
+        let mut sum = *self.sum;
         for &j in candidates {
-            let (x_ij, r2) = separation::<A, D>(self.x_i, &self.from.position[j as usize]);
-            if r2 < reach_squared && j != self.skip {
+            let (x_ij, r2) = separation::<A, D>(&x_i, &from.position[j as usize]);
+            if r2 < reach_squared && j != skip {
                 self.neighbours += 1;
-                let read_j = read(self.from.read, j as usize);
-                let argument = self.pass.argument(r2);
-                let term = self.pass.term(&x_ij, argument, &self.read_i, &read_j);
-                self.in_range &= accumulate(self.sum, &term);
+                let read_j = read(from.read, j as usize);
+                let term = pass.term(&x_ij, pass.argument(r2), &read_i, &read_j);
+                self.in_range &= accumulate(&mut sum, &term);
             }
         }
+        *self.sum = sum;
     }
 
     /// # Errors

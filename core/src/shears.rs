@@ -22,9 +22,9 @@ impl<A: Arithmetic, const IMPULSE: usize, const D: usize> PointPass<A, D> for Ki
     #[inline(always)]
     fn at(&self, id: u64, j: &[A::Word; D], v: &mut [A::Word; D]) -> Result<(), Fault> {
         let mut inside = true;
-        for (v, j) in v.iter_mut().zip(j) {
-            *v = v.plus(*j);
-            inside &= v.in_range();
+        for d in 0..D {
+            v[d] = v[d].plus(j[d]);
+            inside &= v[d].in_range();
         }
         if inside {
             Ok(())
@@ -60,10 +60,10 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Drift {
     #[inline(always)]
     fn at(&self, id: u64, v: &[A::Word; D], x: &mut [A::Word; D]) -> Result<(), Fault> {
         let mut inside = true;
-        for (x, v) in x.iter_mut().zip(v) {
-            let moved = x.add_rounded(v.quanta() * self.factor);
+        for d in 0..D {
+            let moved = x[d].add_rounded(v[d].quanta() * self.factor);
             inside &= moved.is_some_and(Quantity::in_range);
-            *x = moved.unwrap_or(*x);
+            x[d] = moved.unwrap_or(x[d]);
         }
         if inside {
             Ok(())

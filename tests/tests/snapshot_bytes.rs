@@ -281,11 +281,14 @@ proptest! {
         seal(&mut bytes);
         if let Ok(read) = Snapshot::from_bytes(&bytes) {
             let _ = read.digest();
-            // How many numbers nobody has is not kept.
-            let counted = !read.state.id.is_empty() && read.state.walls > 0;
-            if counted || read.to_bytes()[8] == 1 && !read.state.id.is_empty() {
-                prop_assert_eq!(read.to_bytes(), bytes);
+            let written = read.to_bytes();
+            // How many numbers nobody has is not kept, nor water as version 2.
+            let water = written[8] == 1;
+            let counted = !read.state.id.is_empty() && (water || read.state.walls > 0);
+            if counted && written[8] == bytes[8] {
+                prop_assert_eq!(&written, &bytes);
             }
+            prop_assert_eq!(Snapshot::from_bytes(&written), Ok(read));
         }
     }
 
@@ -374,6 +377,9 @@ fn damage_of_a_snapshot_of_other_fields_is_noticed_and_told() {
     }
     for length in 0..whole.len() {
         assert!(Snapshot::from_bytes(&whole[..length]).is_err(), "{length}");
+        if length == whole.len() - 16 {
+            continue;
+        }
         // Cut off by somebody who knows the checksum.
         let mut bytes = whole[..length].to_vec();
         bytes.extend_from_slice(&hash(&whole[..length]));

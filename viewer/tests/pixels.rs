@@ -2,6 +2,7 @@
 
 use crate::home::after;
 use loschmidt_runner::Points;
+use loschmidt_runner::points::PointColumn;
 use loschmidt_viewer::{
     Colormap, Colouring, History, Home, Look, Pane, Picture, Raster, Rect, Rgb, Theme, draw,
     draw_on, field, picture, png,
@@ -132,12 +133,16 @@ fn shuffled(points: &Points) -> Points {
         true => Vec::new(),
         false => order.iter().map(|&i| list[i]).collect(),
     };
+    let columns = points.columns.iter().map(|column| PointColumn {
+        measure: column.measure,
+        values: of(&column.values),
+    });
+    let columns = columns.collect();
     Points {
         id: order.iter().map(|&i| points.id[i]).collect(),
         position: points.position.each_ref().map(of),
         speed: of(&points.speed),
-        density: of(&points.density),
-        pressure: of(&points.pressure),
+        columns,
         ..points.clone()
     }
 }
@@ -211,8 +216,9 @@ fn crowd(colours: [Rgb; 2], each: usize) -> Raster {
     points.id = (0..n as u64).collect();
     points.position = [vec![0.5; n], vec![0.5; n], Vec::new()];
     points.speed = vec![0.0; n];
-    points.density = vec![1000.0; n];
-    points.pressure = vec![0.0; n];
+    for (column, value) in points.columns.iter_mut().zip([1000.0, 0.0]) {
+        column.values = vec![value; n];
+    }
     let tint = (0..n).map(|id| colours[id / each]);
     let look = Look {
         colouring: Colouring::Picture(tint.collect()),

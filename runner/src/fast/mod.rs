@@ -27,7 +27,7 @@ pub use backend::Backend;
 
 use crate::drive::{Drive, Group};
 use crate::pool::Rayon;
-use layout::Crew;
+use layout::{Crew, Layout};
 use loschmidt_core::fault::MAX_NEIGHBOURS;
 use loschmidt_core::fields::{Operands, POSITION, Set, VELOCITY};
 use loschmidt_core::integrator::Stage;
@@ -319,7 +319,12 @@ impl Drive for Fast {
                     drift: scheme.water().drift(c),
                     step,
                 };
-                self.points(&pass, &mut system.particles)
+                let memory = self.memory();
+                if system.particles.len() == memory.layout.particles() {
+                    return pass.of_all(&memory.layout, &mut system.particles);
+                }
+                drop(memory);
+                group.in_turn(model, system, self)
             }
             _ => group.in_turn(model, system, self),
         }
@@ -335,17 +340,37 @@ struct KicksAndDrift {
     drift: shears::Drift,
 }
 
-impl<A: Arithmetic, const D: usize> PointPass<A, D> for KicksAndDrift {
-    type Read<T: Copy> = [T; D];
-    type Write<T: Copy> = [[T; D]; 2];
-    const READ: &'static [usize] = &[IMPULSE];
-    const WRITE: &'static [usize] = &[POSITION, VELOCITY];
+impl KicksAndDrift {
+    fn of_all<A: Arithmetic, const D: usize>(
+        &self,
+        layout: &Layout,
+        particles: &mut Set<'_, A, D>,
+    ) -> Result<(), Fault> {
+        let (view, [x, v]) = particles.lend([POSITION, VELOCITY]);
+        let (ids, impulses) = (view.id, view.vectors::<A::Word, D>(IMPULSE));
+        let x = layout.split_places(x.as_chunks_mut::<D>().0, 1);
+        let v = layout.split_places(v.as_chunks_mut::<D>().0, 1);
+        let parts = x.into_iter().zip(v).collect();
+        first_fault(layout.for_parts(parts, |strips, (x, v)| {
+            let places = layout.places_of(&strips);
+            let (ids, impulses) = (&ids[places.clone()], &impulses[places]);
+            let mut first: Option<Fault> = None;
+            for (((x, v), impulse), id) in x.iter_mut().zip(v).zip(impulses).zip(ids) {
+                if let Err(fault) = self.at::<A, D>(*id, impulse, x, v) {
+                    first = Some(first.map_or(fault, |other: Fault| other.first(fault)));
+                }
+            }
+            first.map_or(Ok(()), Err)
+        }))
+    }
+
     #[inline(always)]
-    fn at(
+    fn at<A: Arithmetic, const D: usize>(
         &self,
         id: u64,
         impulse: &[A::Word; D],
-        [x, v]: &mut [[A::Word; D]; 2],
+        x: &mut [A::Word; D],
+        v: &mut [A::Word; D],
     ) -> Result<(), Fault> {
         let kick = shears::Kick::<IMPULSE>;
         let mut add = || PointPass::<A, D>::at(&kick, id, impulse, v);

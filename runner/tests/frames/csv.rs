@@ -1,9 +1,10 @@
 //! Frames as CSV.
 
-use loschmidt_runner::frame::Frame;
+use loschmidt_core::model::Measure;
+use loschmidt_runner::frame::{Frame, FrameColumn};
 use loschmidt_runner::output::particles_csv::{self, CsvWriter};
 
-use super::made::{bits, frames, particles};
+use super::made::{AWKWARD, COLUMNS, bits, frames, of_water, particles};
 
 pub fn csv(frame: &Frame) -> String {
     let mut bytes = Vec::new();
@@ -55,8 +56,7 @@ fn csv_of_a_small_frame_reads_like_this() {
         id: vec![0, 12],
         position: vec![[0.01, 1e-300, 0.0], [1e22, -0.0, 0.0]],
         velocity: vec![[0.0, -9.81, 0.0], [1.5, f64::INFINITY, 0.0]],
-        density: vec![1000.0, 1000.25],
-        pressure: vec![4905.0, -0.1],
+        columns: of_water([vec![1000.0, 1000.25], vec![4905.0, -0.1]]),
         wall_position: vec![[-0.01, 0.3, 0.0]],
         ..Frame::default()
     };
@@ -72,9 +72,38 @@ id,kind,x_m,y_m,vx_m_per_s,vy_m_per_s,density_kg_per_m3,pressure_Pa
 #[test]
 fn a_frame_is_read_back_to_the_same_bits() {
     for frame in frames() {
-        let read = particles_csv::read(csv(&frame).as_bytes()).unwrap();
+        let read = particles_csv::read(csv(&frame).as_bytes(), COLUMNS).unwrap();
         assert_eq!(read.dimension, frame.dimension);
         assert_eq!(particles(&read), particles(&frame));
+    }
+}
+
+#[test]
+fn columns_of_any_model_are_named_with_their_units_and_read_back() {
+    let measure = |name, unit| Measure { name, unit };
+    for (columns, names) in [
+        (&[][..], ""),
+        (&[measure("specific entropy", "J/kg")], ",specific_entropy_J_per_kg"),
+        (
+            &[measure("shear-rate", "1/s²"), measure("damage", ""), measure("density", "kg/m³")],
+            ",shear_rate_1_per_s2,damage,density_kg_per_m3",
+        ),
+    ] {
+        for mut frame in frames() {
+            let fluid = frame.id.len();
+            let column = |(n, &measure): (usize, &Measure)| FrameColumn {
+                measure,
+                values: (0..fluid).map(|i| AWKWARD[(i + n) % AWKWARD.len()]).collect(),
+            };
+            frame.columns = columns.iter().enumerate().map(column).collect();
+            let text = csv(&frame);
+            let header = text.lines().next().unwrap();
+            assert!(header.ends_with(&format!("_per_s{names}")), "{header}");
+            let read = particles_csv::read(text.as_bytes(), columns).unwrap();
+            assert_eq!(particles(&read), particles(&frame));
+            // Of another model.
+            assert!(particles_csv::read(text.as_bytes(), COLUMNS).is_err());
+        }
     }
 }
 
@@ -96,7 +125,7 @@ fn a_file_that_holds_no_frame_is_refused_with_its_line() {
             Some('0'..='9' | '-') => header.to_owned() + text,
             _ => text.to_owned(),
         };
-        let error = particles_csv::read(text.as_bytes())
+        let error = particles_csv::read(text.as_bytes(), COLUMNS)
             .unwrap_err()
             .to_string();
         assert!(error.contains(words), "{words:?} in {error:?}");

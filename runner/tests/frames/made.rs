@@ -1,6 +1,19 @@
 //! Frames to write, and what a reader must find in their files.
 
-use loschmidt_runner::frame::Frame;
+use loschmidt_core::model::{Measure, Model};
+use loschmidt_core::{Fixed, Symplectic};
+use loschmidt_runner::frame::{Frame, FrameColumn};
+
+/// Density and pressure.
+pub const COLUMNS: &[Measure] = <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS;
+
+/// Columns of these densities and pressures.
+pub fn of_water(values: [Vec<f64>; 2]) -> Vec<FrameColumn> {
+    let columns = COLUMNS.iter().zip(values);
+    columns
+        .map(|(&measure, values)| FrameColumn { measure, values })
+        .collect()
+}
 
 /// Floats that are hard to write: signed zero, the extremes, neighbours of round numbers.
 pub const AWKWARD: [f64; 12] = [
@@ -47,8 +60,7 @@ pub fn frame(dimension: usize, fluid: usize, wall: usize, index: u64) -> Frame {
         id: (0..fluid as u64).map(|i| 3 * i + 5).collect(),
         position,
         velocity,
-        density: (0..fluid).map(|_| number()).collect(),
-        pressure: (0..fluid).map(|_| number()).collect(),
+        columns: of_water([(); 2].map(|()| (0..fluid).map(|_| number()).collect())),
         wall_position,
     }
 }
@@ -74,16 +86,17 @@ pub fn bits<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<u64> {
     values.into_iter().map(|value| value.to_bits()).collect()
 }
 
-/// Per particle, walls included: id, whether it is a wall, position, velocity, density, pressure.
+/// Per particle, walls included: id, whether it is a wall, position, velocity, and the columns.
 pub fn particles(frame: &Frame) -> Vec<(u64, bool, Vec<u64>)> {
     let fluid = (0..frame.id.len()).map(|i| {
-        let scalars = [frame.density[i], frame.pressure[i]];
+        let columns = frame.columns.iter().map(|column| &column.values[i]);
         let values = frame.position[i].iter().chain(&frame.velocity[i]);
-        (frame.id[i], false, bits(values.chain(&scalars)))
+        (frame.id[i], false, bits(values.chain(columns)))
     });
     let after = frame.id.last().map_or(0, |last| last + 1);
     let wall = frame.wall_position.iter().enumerate().map(|(i, x)| {
-        let rest = [0.0, 0.0, 0.0, f64::NAN, f64::NAN];
+        let mut rest = vec![0.0; 3];
+        rest.resize(3 + frame.columns.len(), f64::NAN);
         (after + i as u64, true, bits(x.iter().chain(&rest)))
     });
     fluid.chain(wall).collect()

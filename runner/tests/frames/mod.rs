@@ -48,7 +48,7 @@ fn a_frame_that_fits_no_file_is_refused_before_the_first_byte() {
     };
     let (list, found, expected) = ("density", 2, 3);
     assert_eq!(
-        broken(&|f| f.density.truncate(2)),
+        broken(&|f| f.columns[0].values.truncate(2)),
         FrameError::Length {
             list,
             found,

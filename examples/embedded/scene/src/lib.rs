@@ -21,12 +21,12 @@ use core::fmt;
 
 use loschmidt_core::fault::CapacityError;
 use loschmidt_core::integrator::STORMER_VERLET;
-use loschmidt_core::model::{
-    DensityCorrection, Forces, Gravity, Model, Parameters, SetupError, StateEquation, Symplectic,
-    Wall,
-};
+use loschmidt_core::model::{Model, SetupError};
 use loschmidt_core::number::{Fixed, Scale};
-use loschmidt_core::owned::{Owned, PushError};
+use loschmidt_core::owned::{Owned, PushError, words};
+use loschmidt_core::schemes::wcsph::{
+    DensityCorrection, Gravity, Parameters, StateEquation, Symplectic, Wall,
+};
 use loschmidt_core::{Digest, Fault, Serial};
 
 /// Steps of each leg.
@@ -68,8 +68,11 @@ const SUPPORT_RADIUS: f64 = 3.0 * SPACING;
 
 type Water = Symplectic<Fixed, 2>;
 
+/// Words for the fields of water and walls.
+const WORDS: usize = words(<Water as Model<Fixed, 2>>::FIELDS, 2, FLUID, WALLS);
+
 /// The system, with all of its memory: about 60 kB.
-pub type Dam = Owned<Fixed, Water, 2, FLUID, WALLS, { BUCKETS + 1 }>;
+pub type Dam = Owned<Fixed, Water, 2, FLUID, WALLS, { BUCKETS + 1 }, WORDS>;
 
 /// What a run came to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -122,7 +125,7 @@ pub enum RunError {
     /// No model can be built from the parameters.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// The grid is larger than the memory for it.
+    /// The grid or the fields are larger than the memory for them.
     #[error(transparent)]
     Capacity(#[from] CapacityError),
     /// A particle was not taken.
@@ -147,7 +150,7 @@ pub fn run() -> Result<Outcome, RunError> {
 /// # Errors
 /// As [`run`].
 pub fn run_in(place: &mut Option<Dam>) -> Result<Outcome, RunError> {
-    let dam = place.insert(Dam::new(Water::new(Forces::new(parameters())?))?);
+    let dam = place.insert(Dam::new(Water::new(parameters())?)?);
     fill(dam)?;
     dam.initialise(&Serial)?;
     let initial = dam.digest();
@@ -160,8 +163,8 @@ pub fn run_in(place: &mut Option<Dam>) -> Result<Outcome, RunError> {
     let last = dam.digest();
     let (_, system) = dam.parts();
     Ok(Outcome {
-        fluid: system.state.len(),
-        walls: system.walls.position.len(),
+        fluid: system.particles.len(),
+        walls: system.walls.len(),
         steps: STEPS,
         front_mm,
         initial,
@@ -221,7 +224,7 @@ fn fill(dam: &mut Dam) -> Result<(), PushError<2>> {
 /// The rightmost particle's distance from the left wall, cut to whole millimetres.
 fn front_mm(dam: &mut Dam) -> i64 {
     let (_, system) = dam.parts();
-    let rightmost = system.state.position.iter().map(|x| x[0]).max();
+    let rightmost = system.particles.position().iter().map(|x| x[0]).max();
     // Integers throughout; 2^46 quanta are a metre.
     rightmost.map_or(0, |x| ((i128::from(x.to_bits()) * 1000) >> 46) as i64)
 }
