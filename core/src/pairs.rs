@@ -143,7 +143,8 @@ where
     S: Accumulate,
 {
     let mut gathering = Gathering::new(pass, to, i, from, sum);
-    from.cells.around(from.grid, &to.position[i], |run| gathering.add(run));
+    from.cells
+        .around(from.grid, &to.position[i], |run| gathering.add(run));
     gathering.end()
 }
 

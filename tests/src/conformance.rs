@@ -51,18 +51,24 @@ impl<M: Model<Fixed, D>, const D: usize> Plain<M, D> {
         let mut plain = Self {
             model,
             id: [(0..counts[0] as u64).collect(), vec![0; counts[1]]],
-            memory: [words(Side::Particles, counts[0]), words(Side::Walls, counts[1])],
+            memory: [
+                words(Side::Particles, counts[0]),
+                words(Side::Walls, counts[1]),
+            ],
             start: buckets.map(|buckets| vec![0; buckets + 1]),
             order: counts.map(|count| vec![0; count]),
             clock: Clock::default(),
         };
         let scale = plain.model.scale();
         let quanta = |x: [f64; 3]| std::array::from_fn::<f64, D, _>(|d| x[d]);
-        let length = |x: &[f64; 3]| to_quanta(quanta(*x), scale.length_quantum()).expect("in range");
+        let length =
+            |x: &[f64; 3]| to_quanta(quanta(*x), scale.length_quantum()).expect("in range");
         let speed = |v: &[f64; 3]| to_quanta(quanta(*v), scale.speed_quantum()).expect("in range");
         let (_, mut system) = plain.parts();
         let positions = system.particles.position_mut().iter_mut();
-        positions.zip(&initial.fluid).for_each(|(x, si)| *x = length(si));
+        positions
+            .zip(&initial.fluid)
+            .for_each(|(x, si)| *x = length(si));
         let velocities = system.particles.velocity_mut().iter_mut();
         let si = &initial.fluid_velocity;
         velocities.zip(si).for_each(|(v, si)| *v = speed(si));
@@ -159,7 +165,9 @@ struct Trace {
 /// Looks at a run after these numbers of steps, and after as many on the way back.
 fn trace<R: Run>(run: Result<R, Fault>, steps: &[u64]) -> Trace {
     let mut trace = Trace::default();
-    trace.fault = run.and_then(|mut run| follow(&mut run, steps, &mut trace)).err();
+    trace.fault = run
+        .and_then(|mut run| follow(&mut run, steps, &mut trace))
+        .err();
     trace
 }
 
@@ -219,7 +227,10 @@ pub fn check<M: Model<Fixed, D>, const D: usize>(
         let part = if found.fault != reference.fault {
             format!("{:?} instead of {:?}", found.fault, reference.fault)
         } else if found.digests != reference.digests {
-            format!("digests {:?} instead of {:?}", found.digests, reference.digests)
+            format!(
+                "digests {:?} instead of {:?}",
+                found.digests, reference.digests
+            )
         } else if found.diagnostics != reference.diagnostics {
             "other diagnostics".to_owned()
         } else {

@@ -35,7 +35,17 @@ pub fn serial() -> Options {
     }
 }
 
-/// The parallel executor on so many threads.
+/// The executor that computes, with the best instruction set, on so many threads: for what is long
+/// and not about executors.
+#[must_use]
+pub fn fastest(n: usize) -> Options {
+    Options {
+        executor: ExecutorKind::Fast,
+        ..threads(n)
+    }
+}
+
+/// The plain parallel executor on so many threads: as slow as the reference.
 #[must_use]
 pub fn threads(n: usize) -> Options {
     Options {

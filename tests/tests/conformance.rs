@@ -108,7 +108,7 @@ fn with_dummy_walls_every_integrator_and_the_standard_scheme() {
 #[test]
 fn around_an_attracting_mass() {
     let scene = scene_of(
-        "particle_spacing = 0.02\nend = 1.0\nfluid.sound_speed = 20\n\
+        "particle_spacing = 0.03\nend = 1.0\nfluid.sound_speed = 20\n\
          gravity.central = { centre = [0.1, 0.2], strength = 2, softening = 0.1 }\n\
          [[region]]\nkind = \"fluid\"\nlattice = \"hexagonal\"\n\
          shape.annulus = { centre = [0, 0], inner = 0.3, outer = 0.6 }\n\
@@ -162,7 +162,7 @@ fn of_two_faults_in_one_step_the_one_of_the_earlier_stage_is_told() {
 #[test]
 fn a_crowd_and_a_crowd_that_is_just_allowed() {
     let scene = cloud_scene(2);
-    for n in [2046u32, 2047, 2048, 2500] {
+    for n in [2047u32, 2048, 2500] {
         let fluid: Vec<_> = (0..n).map(|i| [1e-6 * f64::from(i), 0.0, 0.0]).collect();
         check(&scene, &cloud(fluid), &[1]);
     }

@@ -6,7 +6,7 @@ use loschmidt_runner::scene::{DensityCorrection, InitialState, Scene};
 use loschmidt_runner::{Options, Player};
 use loschmidt_tests::permitted;
 use loschmidt_tests::program::{
-    assert_same_way_back, run, scene, scene_of, serial, shuffled, threads,
+    assert_same_way_back, fastest, run, scene, scene_of, serial, shuffled, threads,
 };
 
 const SPACING: f64 = 0.02;
@@ -187,14 +187,14 @@ fn particles_start_with_the_velocity_of_where_they_were_moved_to() {
 fn the_corrected_dam_break_has_no_constants_and_returns_exactly() {
     let set = [
         "particle_spacing=0.05",
-        "turnaround=0.3",
+        "turnaround=0.1",
         "density_correction=isc",
     ];
     let mut first = None;
     for options in [
         serial(),
-        threads(3),
         shuffled(threads(2), 1),
+        fastest(3),
         Options::default(),
     ] {
         let (outcome, rows) = run(scene("dam-break", &set), options);
@@ -205,6 +205,6 @@ fn the_corrected_dam_break_has_no_constants_and_returns_exactly() {
     }
     let scene = scene("dam-break", &set);
     let initial = scene.initial_state().expect("a state");
-    let mut player = Player::new(scene, initial, threads(2)).expect("a simulation");
+    let mut player = Player::new(scene, initial, fastest(2)).expect("a simulation");
     assert!(player.save().fields[2].words.iter().all(|&c| c == 0));
 }

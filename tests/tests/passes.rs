@@ -78,7 +78,10 @@ impl<const D: usize> Check<D> for Bounded<'_, D> {
         let bound = pass.bound(&self.0.largest::<P>());
         for k in 0..term_count::<P, D>() {
             let number = term.get(k);
-            prop_assert!(number.abs() <= bound, "{name}, number {k}: {number:e} {bound:e}");
+            prop_assert!(
+                number.abs() <= bound,
+                "{name}, number {k}: {number:e} {bound:e}"
+            );
         }
         Ok(())
     }
@@ -99,7 +102,14 @@ impl<const D: usize> Check<D> for Vanishes<'_, D> {
                 // At the reach itself 1/h, rounded, leaves a power of 10^-16.
                 let exact = factor < 1.000_001 || number == 0.0;
                 prop_assert!(exact, "{name}, number {k} at {factor}: {number:e}");
-                prop_assert_eq!(round(number), Some(0), "{}, number {} at {}", name, k, factor);
+                prop_assert_eq!(
+                    round(number),
+                    Some(0),
+                    "{}, number {} at {}",
+                    name,
+                    k,
+                    factor
+                );
             }
         }
         Ok(())
@@ -166,7 +176,10 @@ fn pair<const D: usize>() -> impl Strategy<Value = Pair<D>> {
         prop::array::uniform::<_, D>(-1.0..1.0f64),
         distance,
         prop::array::uniform8(largest),
-        [prop::array::uniform8(one.clone()), prop::array::uniform8(one)],
+        [
+            prop::array::uniform8(one.clone()),
+            prop::array::uniform8(one),
+        ],
     )
         .prop_filter("a direction", |(x, ..)| x.iter().any(|x| x.abs() > 0.01))
         .prop_map(|(direction, distance, largest, read)| Pair {
@@ -234,7 +247,10 @@ fn a_pass_that_does_not_vanish_by_itself_has_no_bound() {
     let wall = water.wall_pass(1e-3).expect("a wall");
     let (_, energy) = water.wall_energy_pass().expect("a wall");
     let r2 = 2.0 * PairPass::<2>::reach_squared(&wall);
-    assert_ne!(PairPass::<2>::term(&wall, &[1e12, 0.0], r2, &[], &[])[0], 0.0);
+    assert_ne!(
+        PairPass::<2>::term(&wall, &[1e12, 0.0], r2, &[], &[])[0],
+        0.0
+    );
     assert_eq!(PairPass::<2>::bound(&wall, &[]), f64::INFINITY);
     assert_eq!(PairPass::<2>::bound(&energy, &[]), f64::INFINITY);
     let none = Parameters {

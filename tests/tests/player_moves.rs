@@ -4,7 +4,7 @@ use loschmidt_core::{Digest, Reversibility};
 use loschmidt_runner::player::PlayerError;
 use loschmidt_runner::points::PointColumn;
 use loschmidt_runner::{ArithmeticKind, Arrow, Player, Points};
-use loschmidt_tests::program::{float, player, scene, serial, threads};
+use loschmidt_tests::program::{fastest, float, player, scene, serial, threads};
 use proptest::prelude::*;
 use std::collections::HashMap;
 use std::ops::ControlFlow;
@@ -17,7 +17,7 @@ fn small() -> Player {
 
 /// 200 particles of water, 2000 steps to a turnaround: long enough to be chaotic.
 fn chaotic() -> Player {
-    player(scene("dam-break", &["particle_spacing=0.1"]), threads(2))
+    player(scene("dam-break", &["particle_spacing=0.1"]), fastest(2))
 }
 const CHAOTIC_STEPS: u64 = 2_000;
 

@@ -6,13 +6,13 @@ use loschmidt_tests::permitted;
 use loschmidt_tests::permitted::{
     ANGULAR_MOMENTUM_OF_A_RUN, ENERGY_FALL_WITH_DUMMIES, ENERGY_FALL_WITH_VERLET,
 };
-use loschmidt_tests::program::{assert_same_way_back, run, scene, serial, threads};
+use loschmidt_tests::program::{assert_same_way_back, fastest, run, scene, serial};
 
 #[test]
 fn colliding_drops_keep_their_momentum_to_the_last_bit() {
     let (outcome, rows) = run(
         scene("colliding-drops", &["particle_spacing=0.04"]),
-        threads(2),
+        fastest(2),
     );
     assert_eq!(outcome.reversed_exactly, Some(true));
     assert!(outcome.momentum.exactly_constant);
@@ -34,7 +34,7 @@ fn two_drops_that_move_together_keep_a_momentum_that_is_not_zero() {
         "region.0.velocity.uniform=[1.5, 0.25]",
         "region.1.velocity.uniform=[-0.5, 0.125]",
     ];
-    let (outcome, rows) = run(scene("colliding-drops", &set), threads(2));
+    let (outcome, rows) = run(scene("colliding-drops", &set), fastest(2));
     assert!(outcome.momentum.exactly_constant);
     assert!(rows[0].momentum_quanta()[..2].iter().all(|p| *p != 0));
     assert!(outcome.momentum.initial.iter().all(|p| *p > 100.0));
@@ -58,7 +58,7 @@ fn gravity_and_walls_change_the_momentum() {
 
 #[test]
 fn a_rotating_drop_keeps_its_angular_momentum() {
-    let (outcome, rows) = run(scene("rotating-drop", &[]), threads(2));
+    let (outcome, rows) = run(scene("rotating-drop", &[]), fastest(2));
     assert_eq!(outcome.reversed_exactly, Some(true));
     assert!(outcome.momentum.exactly_constant);
     let Angular::Plane(home) = outcome.angular_momentum.initial else {
@@ -131,7 +131,7 @@ fn the_gresho_vortex_returns_exactly_from_every_lattice() {
     for lattice in ["square", "hexagonal", "vogel"] {
         let lattice = format!("region.0.lattice={lattice}");
         let set = ["particle_spacing=0.04", "turnaround=0.2", lattice.as_str()];
-        let (outcome, rows) = run(scene("gresho-vortex", &set), threads(2));
+        let (outcome, rows) = run(scene("gresho-vortex", &set), fastest(2));
         assert_eq!(outcome.reversed_exactly, Some(true), "{lattice}");
         assert_same_way_back(&rows);
     }
@@ -141,7 +141,7 @@ fn the_gresho_vortex_returns_exactly_from_every_lattice() {
 #[test]
 fn the_kepler_ring_keeps_its_angular_momentum_and_returns_exactly() {
     let set = ["particle_spacing=0.025", "turnaround=3.14"];
-    let (outcome, rows) = run(scene("kepler-ring", &set), threads(2));
+    let (outcome, rows) = run(scene("kepler-ring", &set), fastest(2));
     assert_eq!(outcome.reversed_exactly, Some(true));
     assert_same_way_back(&rows);
     let home = rows[0].angular_momentum_z;

@@ -325,7 +325,9 @@ impl<const D: usize> Located<'_, '_, D> {
         let first = |k: usize| Whole::from_word(1000 + (k % each) as i64);
         let mut out: Vec<Whole> = (0..receivers.id.len() * each).map(first).collect();
         exec.sum(pass, &to_whom, &from_whom, &mut out)?;
-        let words = out.chunks(each).map(|sum| sum.iter().map(|w| w.to_word()).collect());
+        let words = out
+            .chunks(each)
+            .map(|sum| sum.iter().map(|w| w.to_word()).collect());
         let mut all: Vec<_> = receivers.id.iter().copied().zip(words).collect();
         all.sort();
         Ok(all)
@@ -379,7 +381,9 @@ fn all_sums<E: Executor, const D: usize>(cloud: &Cloud<D>, exec: &E, strength: f
             // By id, since the places are the executor's.
             let mut generator = Generator::new(particles.id[place] + 7 * turn);
             for x in &mut particles.position_mut()[place] {
-                *x = x.plus(Length::from_word((0.1 * SPACING * generator.signed()) as i64));
+                *x = x.plus(Length::from_word(
+                    (0.1 * SPACING * generator.signed()) as i64,
+                ));
             }
         }
     }
@@ -393,13 +397,20 @@ fn threads(n: usize) -> NonZeroUsize {
 /// The first particle whose words are others, in few words.
 fn difference(found: &Found, expected: &Found) -> String {
     let (Ok(found), Ok(expected)) = (found, expected) else {
-        return format!("{:?} instead of {:?}", found.as_ref().err(), expected.as_ref().err());
+        return format!(
+            "{:?} instead of {:?}",
+            found.as_ref().err(),
+            expected.as_ref().err()
+        );
     };
     let mut pairs = found.iter().zip(expected);
     let first = pairs.find(|(found, expected)| found != expected);
-    first.map_or("other particles".to_owned(), |((id, found), (_, expected))| {
-        format!("of particle {id} {found:?} instead of {expected:?}")
-    })
+    first.map_or(
+        "other particles".to_owned(),
+        |((id, found), (_, expected))| {
+            format!("of particle {id} {found:?} instead of {expected:?}")
+        },
+    )
 }
 
 /// Compares all executors with the plain traversal; returns what that found.
@@ -408,7 +419,11 @@ fn all_agree<const D: usize>(size: [i64; D], strength: f64) -> Vec<Found> {
     let reference = all_sums(&cloud, &Serial, strength);
     let check = |found: Vec<Found>, who: &str| {
         for (n, (found, expected)) in found.iter().zip(&reference).enumerate() {
-            assert!(found == expected, "sum {n} of {who}: {}", difference(found, expected));
+            assert!(
+                found == expected,
+                "sum {n} of {who}: {}",
+                difference(found, expected)
+            );
         }
         assert_eq!(found.len(), reference.len());
     };
@@ -422,7 +437,10 @@ fn all_agree<const D: usize>(size: [i64; D], strength: f64) -> Vec<Found> {
             let found = exec.install(|| all_sums(&cloud, &exec, strength));
             check(found, &who);
             if n == 2 {
-                check(all_sums(&cloud, &fast(), strength), &format!("{who}, from outside"));
+                check(
+                    all_sums(&cloud, &fast(), strength),
+                    &format!("{who}, from outside"),
+                );
             }
         }
     }
@@ -431,10 +449,34 @@ fn all_agree<const D: usize>(size: [i64; D], strength: f64) -> Vec<Found> {
 
 #[test]
 fn wide_sums_have_as_many_numbers_as_they_name() {
-    assert_eq!([term_count::<MomentsPass, 2>(), term_count::<MomentsPass, 3>()], [9, 17]);
-    assert_eq!([read_count::<MomentsPass, 2>(), read_count::<MomentsPass, 3>()], [4, 5]);
-    assert_eq!([term_count::<ExchangePass, 2>(), term_count::<ExchangePass, 3>()], [3, 4]);
-    assert_eq!([read_count::<ExchangePass, 2>(), read_count::<ExchangePass, 3>()], [7, 12]);
+    assert_eq!(
+        [
+            term_count::<MomentsPass, 2>(),
+            term_count::<MomentsPass, 3>()
+        ],
+        [9, 17]
+    );
+    assert_eq!(
+        [
+            read_count::<MomentsPass, 2>(),
+            read_count::<MomentsPass, 3>()
+        ],
+        [4, 5]
+    );
+    assert_eq!(
+        [
+            term_count::<ExchangePass, 2>(),
+            term_count::<ExchangePass, 3>()
+        ],
+        [3, 4]
+    );
+    assert_eq!(
+        [
+            read_count::<ExchangePass, 2>(),
+            read_count::<ExchangePass, 3>()
+        ],
+        [7, 12]
+    );
 }
 
 /// More particles than a part of the fast executor's layout holds, for each of five threads.
@@ -445,7 +487,11 @@ const SPACE: [i64; 3] = [22, 22, 22];
 fn are_whole_sums(found: &[Found]) {
     for sums in found {
         let sums = sums.as_ref().expect("in range");
-        let largest = sums.iter().flat_map(|(_, words)| words).map(|w| w.abs()).max();
+        let largest = sums
+            .iter()
+            .flat_map(|(_, words)| words)
+            .map(|w| w.abs())
+            .max();
         assert!(largest > Some(1 << 20), "{largest:?}");
     }
 }
@@ -480,7 +526,11 @@ fn where_bounds_do_not_hold_wide_sums_are_the_same_and_their_faults_too() {
             let faults = found.iter().filter_map(|sums| sums.as_ref().err());
             let faults: Vec<&Fault> = faults.collect();
             assert_eq!(!faults.is_empty(), out_of_range, "{faults:?}");
-            assert!(faults.iter().all(|fault| fault.kind == FaultKind::TermRange));
+            assert!(
+                faults
+                    .iter()
+                    .all(|fault| fault.kind == FaultKind::TermRange)
+            );
         }
     }
 }

@@ -83,9 +83,16 @@ fn columns_of_any_model_are_named_with_their_units_and_read_back() {
     let measure = |name, unit| Measure { name, unit };
     for (columns, names) in [
         (&[][..], ""),
-        (&[measure("specific entropy", "J/kg")], ",specific_entropy_J_per_kg"),
         (
-            &[measure("shear-rate", "1/s²"), measure("damage", ""), measure("density", "kg/m³")],
+            &[measure("specific entropy", "J/kg")],
+            ",specific_entropy_J_per_kg",
+        ),
+        (
+            &[
+                measure("shear-rate", "1/s²"),
+                measure("damage", ""),
+                measure("density", "kg/m³"),
+            ],
             ",shear_rate_1_per_s2,damage,density_kg_per_m3",
         ),
     ] {
@@ -93,7 +100,9 @@ fn columns_of_any_model_are_named_with_their_units_and_read_back() {
             let fluid = frame.id.len();
             let column = |(n, &measure): (usize, &Measure)| FrameColumn {
                 measure,
-                values: (0..fluid).map(|i| AWKWARD[(i + n) % AWKWARD.len()]).collect(),
+                values: (0..fluid)
+                    .map(|i| AWKWARD[(i + n) % AWKWARD.len()])
+                    .collect(),
             };
             frame.columns = columns.iter().enumerate().map(column).collect();
             let text = csv(&frame);
