@@ -2,7 +2,8 @@
 //!
 //! A model declares a list of [`Field`]s. Everything that must know of what a particle consists
 //! reads that list: storage, checks of capacity, estimates of memory, digest, snapshot, reversal,
-//! reordering. The first field of every model is the position, the second the velocity.
+//! reordering. The first three fields of every model are the position, the velocity and, as scratch,
+//! the impulse.
 //!
 //! A [`Set`] is the particles of one kind (those that move, or the walls) on lent memory: one slice
 //! of words for each field, particle after particle. Fields of the *state* are what a run is;
@@ -16,6 +17,8 @@ use crate::values::Values;
 pub const POSITION: usize = 0;
 /// Place of the velocity in every model's list.
 pub const VELOCITY: usize = 1;
+/// Place of the impulses of the present kick in every model's list.
+pub const IMPULSE: usize = 2;
 /// Most fields that a model may declare.
 pub const MAX_FIELDS: usize = 16;
 
@@ -165,6 +168,9 @@ pub const POSITION_FIELD: Field =
 /// v of the particles that move.
 pub const VELOCITY_FIELD: Field =
     Field::state("velocity", Shape::Vector, Quantum::Speed, TimeParity::Odd);
+
+/// J, the impulse per mass of the present kick.
+pub const IMPULSE_FIELD: Field = Field::scratch("impulse", Shape::Vector, Quantum::Speed);
 
 /// Which particles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -39,6 +39,7 @@ pub mod observe;
 pub mod owned;
 pub mod pairs;
 pub mod points;
+pub mod prelude;
 pub mod schemes;
 pub mod shears;
 pub mod system;

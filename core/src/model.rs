@@ -9,10 +9,11 @@
 
 use crate::executor::Executor;
 use crate::fault::{Fault, FaultKind};
-use crate::fields::{Field, View};
-use crate::integrator::Stage;
+use crate::fields::{Field, IMPULSE_FIELD, POSITION_FIELD, VELOCITY_FIELD, View};
+use crate::integrator::{Integrator, Stage};
 use crate::neighbours::Grid;
 use crate::number::{Arithmetic, Scale};
+use crate::shears::{Drift, Kick};
 use crate::system::System;
 use thiserror::Error;
 
@@ -38,32 +39,52 @@ pub struct Measure {
     pub unit: &'static str,
 }
 
+/// What every model says of itself in numbers.
+#[derive(Clone, Debug)]
+pub struct Settings<const D: usize> {
+    /// Units of the state.
+    pub scale: Scale,
+    /// Mass of every particle, kg (per m of depth in 2D).
+    pub mass: f64,
+    /// dt, s.
+    pub time_step: f64,
+    /// The table of a step.
+    pub integrator: &'static Integrator,
+    /// Upper end of the histogram of speeds, m/s.
+    pub fastest: f64,
+    /// Geometry of the cells of particles and of walls.
+    pub grids: [Grid<D>; 2],
+}
+
 /// Most kinds of energy that a model may have.
 pub const MAX_ENERGIES: usize = 8;
 
 /// A scheme: what a particle consists of, how a system is set up, and its step.
 pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
-    /// State and scratch; the first two are [`POSITION_FIELD`] and [`VELOCITY_FIELD`].
-    ///
-    /// [`POSITION_FIELD`]: crate::fields::POSITION_FIELD
-    /// [`VELOCITY_FIELD`]: crate::fields::VELOCITY_FIELD
-    const FIELDS: &'static [Field];
+    /// State and scratch; the first three are these, or these with a role on walls.
+    const FIELDS: &'static [Field] = &[POSITION_FIELD, VELOCITY_FIELD, IMPULSE_FIELD];
     /// Kinds of energy, in the order of [`Model::energies`]; the first is the kinetic one.
     const ENERGIES: &'static [&'static str];
     /// What is recorded and drawn of a particle besides position and velocity.
-    const COLUMNS: &'static [Measure];
+    const COLUMNS: &'static [Measure] = &[];
     /// Part of the type, so that whoever promises a way back can ask before promising. Reversing
     /// the velocities is allowed for every model.
-    const REVERSIBILITY: Reversibility;
+    const REVERSIBILITY: Reversibility = if A::EXACT {
+        Reversibility::BitExact
+    } else {
+        Reversibility::UpToRounding
+    };
 
+    /// What every model must say of itself in numbers.
+    fn settings(&self) -> &Settings<D>;
     /// Units of the state.
-    fn scale(&self) -> Scale;
-    /// Mass of every particle, kg (per m of depth in 2D).
-    fn mass(&self) -> f64;
-    /// Upper end of the histogram of speeds, m/s.
-    fn fastest(&self) -> f64;
+    fn scale(&self) -> Scale {
+        self.settings().scale
+    }
     /// Geometry of the cells of particles and of walls.
-    fn grids(&self) -> [&Grid<D>; 2];
+    fn grids(&self) -> [&Grid<D>; 2] {
+        self.settings().grids.each_ref()
+    }
 
     /// What follows from the walls alone; after they were placed, and before anything else.
     ///
@@ -98,10 +119,16 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     ///
     /// # Errors
     /// As a step.
-    fn refresh<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault>;
+    fn refresh<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
+        system.locate(exec, true);
+        Ok(())
+    }
 
     /// The stages of step number `step`, counted from 1.
-    fn stages(&self, step: u64) -> impl Iterator<Item = Stage>;
+    fn stages(&self, step: u64) -> impl Iterator<Item = Stage> {
+        let _ = step;
+        self.settings().integrator.stages.iter().copied()
+    }
 
     /// Computes what a stage will add.
     ///
@@ -114,7 +141,7 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
         exec: &E,
     ) -> Result<(), Fault>;
 
-    /// Adds what was prepared.
+    /// Adds what was prepared: the impulses to the velocities, or the velocities to the positions.
     ///
     /// # Errors
     /// The particle that left the number range.
@@ -123,7 +150,16 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
         stage: Stage,
         system: &mut System<'_, A, D>,
         exec: &E,
-    ) -> Result<(), Fault>;
+    ) -> Result<(), Fault> {
+        match stage {
+            Stage::Kick(_) => exec.points(&Kick, &mut system.particles),
+            Stage::Drift(c) => {
+                let drift = Drift::new(c * self.settings().time_step, &self.scale());
+                exec.points(&drift, &mut system.particles)
+            }
+            Stage::Lift(_) | Stage::Relax => Ok(()),
+        }
+    }
 
     /// One step.
     ///
@@ -153,7 +189,10 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
 
     /// Number `column` of [`Model::COLUMNS`], in its unit, of the particle in this place of a
     /// system that was refreshed.
-    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64;
+    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64 {
+        let _ = (column, particles, place);
+        f64::NAN
+    }
 }
 
 /// A model with a third verb: `relax`, after some of its steps.
@@ -182,17 +221,8 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
     const COLUMNS: &'static [Measure] = R::Scheme::COLUMNS;
     const REVERSIBILITY: Reversibility = Reversibility::Dissipative;
 
-    fn scale(&self) -> Scale {
-        self.0.scheme().scale()
-    }
-    fn mass(&self) -> f64 {
-        self.0.scheme().mass()
-    }
-    fn fastest(&self) -> f64 {
-        self.0.scheme().fastest()
-    }
-    fn grids(&self) -> [&Grid<D>; 2] {
-        self.0.scheme().grids()
+    fn settings(&self) -> &Settings<D> {
+        self.0.scheme().settings()
     }
     fn place_walls<E: Executor>(
         &self,

@@ -41,10 +41,16 @@ pub trait PairPass<const D: usize>: Sync {
     /// A number that no number of a term exceeds in magnitude where nothing that is read of either
     /// particle exceeds `largest`; infinite where there is none. It is what allows an executor to
     /// leave out the check of the range of each term.
-    fn bound(&self, largest: &Self::Read<f64>) -> f64;
+    fn bound(&self, largest: &Self::Read<f64>) -> f64 {
+        let _ = largest;
+        f64::INFINITY
+    }
     /// What the term needs of r² = |x_ij|² (length quanta squared); passes that need the same can
     /// share it.
-    fn argument<L: Lanes>(&self, r2: L) -> L;
+    #[inline(always)]
+    fn argument<L: Lanes>(&self, r2: L) -> L {
+        r2
+    }
     /// The term, in quanta of its sums and not yet rounded, for x_ij = x_i - x_j (length quanta),
     /// the argument of |x_ij|², and what is read of i and j (in quanta of their fields).
     fn term<L: Lanes>(

@@ -6,15 +6,15 @@
 //! dt is the time step, c the entry of the integrator's table.
 
 use crate::fault::{Fault, FaultKind};
-use crate::fields::{POSITION, VELOCITY};
+use crate::fields::{IMPULSE, POSITION, VELOCITY};
 use crate::number::{Arithmetic, Quantity, Scale};
 use crate::points::PointPass;
 
-/// v ← v + J, the impulses being field number `IMPULSE` of the model.
+/// v ← v + J.
 #[derive(Clone, Copy, Debug)]
-pub struct Kick<const IMPULSE: usize>;
+pub struct Kick;
 
-impl<A: Arithmetic, const IMPULSE: usize, const D: usize> PointPass<A, D> for Kick<IMPULSE> {
+impl<A: Arithmetic, const D: usize> PointPass<A, D> for Kick {
     type Read<T: Copy> = [T; D];
     type Write<T: Copy> = [T; D];
     const READ: &'static [usize] = &[IMPULSE];
@@ -31,6 +31,22 @@ impl<A: Arithmetic, const IMPULSE: usize, const D: usize> PointPass<A, D> for Ki
         } else {
             Err(Fault::new(FaultKind::VelocityRange, id))
         }
+    }
+}
+
+/// J ← 0: what the sums of a kick begin with where nothing else pulls.
+#[derive(Clone, Copy, Debug)]
+pub struct NoImpulse;
+
+impl<A: Arithmetic, const D: usize> PointPass<A, D> for NoImpulse {
+    type Read<T: Copy> = [T; 0];
+    type Write<T: Copy> = [T; D];
+    const READ: &'static [usize] = &[];
+    const WRITE: &'static [usize] = &[IMPULSE];
+    #[inline(always)]
+    fn at(&self, _: u64, _: &[A::Word; 0], impulse: &mut [A::Word; D]) -> Result<(), Fault> {
+        *impulse = [A::Word::ZERO; D];
+        Ok(())
     }
 }
 

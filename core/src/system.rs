@@ -46,6 +46,28 @@ pub struct Sum<'a> {
     pub into: usize,
 }
 
+impl<'a> Sum<'a> {
+    /// What particles that move receive from those of one side.
+    #[must_use]
+    pub const fn to_particles(from: Side, read: &'a [usize], into: usize) -> Self {
+        Self {
+            to: Side::Particles,
+            from,
+            read,
+            into,
+        }
+    }
+
+    /// What walls receive from those of one side.
+    #[must_use]
+    pub const fn to_walls(from: Side, read: &'a [usize], into: usize) -> Self {
+        Self {
+            to: Side::Walls,
+            ..Self::to_particles(from, read, into)
+        }
+    }
+}
+
 /// Most fields that a pair pass reads.
 pub const MAX_READ: usize = 8;
 

@@ -16,14 +16,14 @@ macro_rules! for_each_model {
                 key: "integrator",
                 unless: Some("stormer-verlet"),
                 help: "the standard scheme has a kick, a drift and a kick of its own: \
-       write `integrator = \"stormer-verlet\"`, or `model = \"symplectic\"`",
+write `integrator = \"stormer-verlet\"`, or `model = \"symplectic\"`",
             }];
             /// The symplectic scheme with its noise filtered out every few steps: dissipative.
             Filtered = "filtered", keys wcsph, made by Filter::filtered, except [Exclusion {
                 key: "turnaround",
                 unless: None,
                 help: "the filter takes noise and energy out of the flow, and nothing brings them \
-       back: write `end`, or `model = \"symplectic\"`",
+back: write `end`, or `model = \"symplectic\"`",
             }];
         }
     };

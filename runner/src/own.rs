@@ -4,11 +4,15 @@
 //! `model = "NAME"`, and players, runs, their resumption, movies and pictures know it.
 //! `examples/lennard_jones.rs` is one.
 
-use crate::scene::{InitialState, Model, Scene};
+use crate::scene::{self, InitialState, Scene};
 use crate::simulation::{BuildError, Options, Simulation};
+use loschmidt_core::Arithmetic;
 use loschmidt_core::fields::Field;
-use loschmidt_core::model::Measure;
+use loschmidt_core::model::{Measure, Model};
 use std::sync::{PoisonError, RwLock};
+
+/// Makes a simulation of a scene.
+pub type Build = fn(&Scene, &InitialState, &Options) -> Result<Box<dyn Simulation>, BuildError>;
 
 /// A model of one's own.
 #[derive(Clone, Copy, Debug)]
@@ -16,11 +20,27 @@ pub struct OwnModel {
     /// Its word in scenes. It reads the same keys as the models of water do.
     pub name: &'static str,
     /// Makes a simulation of a scene, by [`crate::simulate`].
-    pub build: fn(&Scene, &InitialState, &Options) -> Result<Box<dyn Simulation>, BuildError>,
+    pub build: Build,
     /// Its [`FIELDS`](loschmidt_core::Model::FIELDS): they say how much memory a scene takes.
     pub fields: &'static [Field],
     /// Its [`COLUMNS`](loschmidt_core::Model::COLUMNS).
     pub columns: &'static [Measure],
+}
+
+impl OwnModel {
+    /// A model of this name.
+    #[must_use]
+    pub fn new<A: Arithmetic, M: Model<A, D>, const D: usize>(
+        name: &'static str,
+        build: Build,
+    ) -> Self {
+        Self {
+            name,
+            build,
+            fields: M::FIELDS,
+            columns: M::COLUMNS,
+        }
+    }
 }
 
 static OWN: RwLock<Vec<OwnModel>> = RwLock::new(Vec::new());
@@ -30,7 +50,7 @@ pub fn register(model: OwnModel) {
     let mut own = OWN.write().unwrap_or_else(PoisonError::into_inner);
     own.retain(|other| other.name != model.name);
     own.push(model);
-    Model::know(model.name);
+    scene::Model::know(model.name);
 }
 
 /// The model of this name.

@@ -1,9 +1,9 @@
 //! The conformance suite: whoever walks the particles leaves the bits of the core's plain step.
 //!
-//! The reference is [`Model::step`] with [`Serial`] on plain vectors ([`Plain`]), which prepares and
-//! applies every stage by itself. Held to it, as simulations of the runner, are its serial executor,
-//! the plain parallel one, and the fast one with every instruction set of this machine on 1, 2 and 5
-//! threads: the same digests and diagnostics, and where the numbers end the same fault.
+//! The reference is [`Model::step`] with [`Serial`] on plain vectors ([`Plain`]), which prepares
+//! and applies every stage by itself. Held to it, as simulations of the runner, are its serial
+//! executor, the plain parallel one, and the fast one with every instruction set of this machine on
+//! 1, 2 and 5 threads: the same digests and diagnostics, and where the numbers end the same fault.
 //!
 //! A model of its own needs three lines in a test:
 //!
@@ -197,7 +197,8 @@ pub fn executors() -> Vec<Options> {
     [serial(), threads(2)].into_iter().chain(fast).collect()
 }
 
-/// Holds every executor to the core's plain steps of a model, looked at after these numbers of them.
+/// Holds every executor to the core's plain steps of a model, looked at after these numbers of
+/// them.
 ///
 /// # Errors
 /// The first difference.

@@ -1,8 +1,9 @@
 //! What is remembered never shows: looking at a run, or forgetting, changes no bit of it.
 
+use loschmidt_core::fields::IMPULSE;
 use loschmidt_core::integrator::{INTEGRATORS, Integrator};
 use loschmidt_core::number::{Arithmetic, Quantity, Word};
-use loschmidt_core::schemes::wcsph::{DENSITY, FIXED_DENSITY, IMPULSE, PRESSURE, Wall};
+use loschmidt_core::schemes::wcsph::{DENSITY, FIXED_DENSITY, PRESSURE, Wall};
 use loschmidt_core::{Clock, Fixed, Float, Model, Serial, Standard, Symplectic};
 use loschmidt_runner::{ExecutorKind, Options, Player, Points};
 use loschmidt_tests::program::{player, scene, serial, threads};

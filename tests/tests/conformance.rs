@@ -14,10 +14,12 @@ use loschmidt_tests::program::{backends, fast, scene, scene_of, threads};
 use proptest::prelude::*;
 
 conformance! {
-    symplectic_in_the_plane: Symplectic<Fixed, 2>, "dam-break", ["particle_spacing=0.02", "cfl=0.05"];
+    symplectic_in_the_plane: Symplectic<Fixed, 2>, "dam-break",
+        ["particle_spacing=0.02", "cfl=0.05"];
     symplectic_with_dummies_in_the_plane: Symplectic<Fixed, 2>, "dam-break",
         ["particle_spacing=0.02", "cfl=0.05", "wall_model=dummy"];
-    symplectic_in_space: Symplectic<Fixed, 3>, "dam-break-3d", ["particle_spacing=0.04", "cfl=0.05"];
+    symplectic_in_space: Symplectic<Fixed, 3>, "dam-break-3d",
+        ["particle_spacing=0.04", "cfl=0.05"];
     symplectic_with_dummies_in_space: Symplectic<Fixed, 3>, "dam-break-3d",
         ["particle_spacing=0.05", "cfl=0.05", "wall_model=dummy"];
     standard_in_the_plane: Standard<Fixed, 2>, "dam-break",
@@ -30,15 +32,17 @@ conformance! {
         ["particle_spacing=0.05", "cfl=0.05", "model=standard", "wall_model=dummy"];
     // Twelve steps and three filterings, one of them in the last.
     filtered_in_the_plane: Filtered<Fixed, 2>, "dam-break",
-        ["particle_spacing=0.02", "cfl=0.05", "turnaround=", "end=1", "model=filtered", "filter_every=4"];
+        ["particle_spacing=0.02", "cfl=0.05", "turnaround=", "end=1",
+         "model=filtered", "filter_every=4"];
     filtered_with_dummies_in_the_plane: Filtered<Fixed, 2>, "dam-break",
-        ["particle_spacing=0.02", "cfl=0.05", "turnaround=", "end=1", "model=filtered", "filter_every=4",
-         "wall_model=dummy"];
+        ["particle_spacing=0.02", "cfl=0.05", "turnaround=", "end=1",
+         "model=filtered", "filter_every=4", "wall_model=dummy"];
     filtered_in_space: Filtered<Fixed, 3>, "dam-break-3d",
-        ["particle_spacing=0.04", "cfl=0.05", "turnaround=", "end=1", "model=filtered", "filter_every=4"];
+        ["particle_spacing=0.04", "cfl=0.05", "turnaround=", "end=1",
+         "model=filtered", "filter_every=4"];
     filtered_with_dummies_in_space: Filtered<Fixed, 3>, "dam-break-3d",
-        ["particle_spacing=0.05", "cfl=0.05", "turnaround=", "end=1", "model=filtered", "filter_every=4",
-         "wall_model=dummy"];
+        ["particle_spacing=0.05", "cfl=0.05", "turnaround=", "end=1",
+         "model=filtered", "filter_every=4", "wall_model=dummy"];
 }
 
 /// The digests of a player after these numbers of steps, or the fault on the way.
@@ -137,7 +141,7 @@ fn of_two_faults_in_one_step_the_one_of_the_earlier_stage_is_told() {
         integrator: &STORMER_VERLET,
         ..crate::faults::units()
     };
-    // One leaves the positions in the drift of step n, one the velocities in its first or second kick.
+    // One leaves the positions in the drift of step n, one the velocities in one of its kicks.
     for (n, kick) in [(1, 0.0), (1, 0.5), (2, 0.0), (2, 0.5), (3, 0.0)] {
         let steps = f64::from(n - 1);
         let leaving = [0.0, 32.0 - (steps + 0.5) / 1024.0, 0.0];

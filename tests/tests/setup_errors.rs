@@ -7,7 +7,7 @@ use loschmidt_core::model::SetupError;
 use loschmidt_core::neighbours::Grid;
 use loschmidt_core::number::{Quantity, Whole};
 use loschmidt_core::owned::{Owned, PushError, words};
-use loschmidt_core::schemes::wcsph::{Central, Wall};
+use loschmidt_core::schemes::wcsph::{Central, FIXED_DENSITY, Wall};
 use loschmidt_core::{CapacityError, Fixed, Model, Parameters, Symplectic};
 use loschmidt_tests::small::{FLUID, Recipe, downwards, water};
 
@@ -153,20 +153,21 @@ fn a_sets_fields_lie_one_after_another_with_room_after_each() {
     let mut memory: Vec<Whole> = (0..3 * 9).map(Whole::from_word).collect();
     let mut id = [7, 5];
     let set = Set::<Fixed, 2>::over(&mut id, &mut memory, 3, FIELDS, Side::Particles).unwrap();
-    let first = [0, 6, 12, 15, 18, 21];
-    for (field, first) in first.into_iter().enumerate() {
-        let each = FIELDS[field].words(Side::Particles, 2);
+    let mut first = 0;
+    for (f, field) in FIELDS.iter().enumerate() {
+        let each = field.words(Side::Particles, 2);
         let expected: Vec<i64> = (first..first + 2 * each as i64).collect();
-        let found: Vec<i64> = set.words(field).iter().map(|w| w.to_word()).collect();
-        assert_eq!(found, expected, "{}", FIELDS[field].name);
+        let found: Vec<i64> = set.words(f).iter().map(|w| w.to_word()).collect();
+        assert_eq!(found, expected, "{}", field.name);
         for place in 0..2 {
             for c in 0..each {
-                assert_eq!(set.word(field, c, place), expected[place * each + c]);
+                assert_eq!(set.word(f, c, place), expected[place * each + c]);
             }
         }
+        first += 3 * each as i64;
     }
     // Particles that move have no fixed density.
-    assert!(set.words(first.len()).is_empty());
+    assert!(set.words(FIXED_DENSITY).is_empty());
 }
 
 #[test]

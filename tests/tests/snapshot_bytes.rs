@@ -397,7 +397,8 @@ fn damage_of_a_snapshot_of_other_fields_is_noticed_and_told() {
     assert_eq!(forged(127, 255), "its parity of a field is impossible");
     assert_eq!(forged(135, 255), "its name of a field is impossible");
     assert_eq!(forged(136, 255), "its name of a field is impossible");
-    assert_eq!(forged(144, 1), "its list of fields is impossible");
+    // One component instead of two: a word of the second particle is taken for a parity.
+    assert_eq!(forged(144, 1), "its parity of a field is impossible");
     assert_eq!(forged(150, 255), "its field is impossible");
     // Of the last field, two words for a particle that should be in the plane.
     let wall = whole.len() - 16 - 24;

@@ -3,8 +3,8 @@
 //! leaves the words of the plain traversal, and its faults.
 
 use loschmidt_core::fields::{
-    Column, Field, POSITION_FIELD, Quantum, Role, Set, Shape, Side, TimeParity, VELOCITY,
-    VELOCITY_FIELD, state_fields, words_each,
+    Column, Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Role, Set, Shape, Side, TimeParity,
+    VELOCITY, VELOCITY_FIELD, state_fields, words_each,
 };
 use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::neighbours::{Cells, Grid};
@@ -19,10 +19,10 @@ use loschmidt_tests::program::backends;
 use loschmidt_tests::small::lattice;
 use std::num::NonZeroUsize;
 
-const DENSITY: usize = 2;
-const TEMPERATURE: usize = 3;
-const PRESSURE: usize = 4;
-const DISTORTION: usize = 5;
+const DENSITY: usize = 3;
+const TEMPERATURE: usize = 4;
+const PRESSURE: usize = 5;
+const DISTORTION: usize = 6;
 
 const fn even(name: &'static str, shape: Shape, quantum: Quantum) -> Field {
     Field::state(name, shape, quantum, TimeParity::Even).on_walls(Role::State)
@@ -32,9 +32,10 @@ const fn computed(name: &'static str) -> Field {
     Field::scratch(name, Shape::Scalar, Quantum::Real).on_walls(Role::Scratch)
 }
 
-static FIELDS: [Field; 6] = [
+static FIELDS: [Field; 7] = [
     POSITION_FIELD,
     VELOCITY_FIELD.on_walls(Role::State),
+    IMPULSE_FIELD,
     even("density", Shape::Scalar, Quantum::Density),
     computed("temperature"),
     computed("pressure"),
@@ -73,7 +74,7 @@ loschmidt_core::values! {
         /// Σ W (T_i - T_j)².
         penalty: T,
     }
-    /// What the exchange needs of a particle: 7 numbers in the plane and 12 in space, of four fields.
+    /// What the exchange needs of a particle: 7 numbers in the plane, 12 in space, of four fields.
     struct Strained {
         /// A.
         distortion: [[T; D]; D],
@@ -193,8 +194,8 @@ impl<const D: usize> PairPass<D> for ExchangePass {
         let mut impulse = *x_ij;
         for a in 0..D {
             let mut sum = (i.pressure + j.pressure) * (x_ij[a] * unit);
-            for b in 0..D {
-                sum = sum + (i.distortion[a][b] + j.distortion[a][b]) * (x_ij[b] * unit);
+            for (b, x) in x_ij.iter().enumerate() {
+                sum = sum + (i.distortion[a][b] + j.distortion[a][b]) * (*x * unit);
             }
             impulse[a] = slope * sum;
         }
@@ -218,8 +219,8 @@ struct Cloud<const D: usize> {
 const SIDES: [Side; 2] = [Side::Particles, Side::Walls];
 
 impl<const D: usize> Cloud<D> {
-    /// A lattice of `size` with a plate of walls under it, all of it disordered: some particles lie on
-    /// one point.
+    /// A lattice of `size` with a plate of walls under it, all of it disordered: some particles lie
+    /// on one point.
     fn new(size: [i64; D], seed: u64) -> Self {
         let mut generator = Generator::new(seed);
         let mut points = [Vec::new(), Vec::new()];

@@ -4,8 +4,10 @@
 //! bits for every executor and storage order, and on the way back the same as on the way out.
 
 mod entropy;
+mod pair_sums;
 
 pub use entropy::{BINS, SpeedHistogram, equilibrium_entropy};
+pub use pair_sums::sum_over_pairs;
 
 use crate::executor::Executor;
 use crate::fault::Fault;
@@ -117,7 +119,7 @@ impl Diagnostics {
             model.scale().length_quantum(),
             model.scale().speed_quantum(),
         );
-        let mass = model.mass();
+        let (mass, fastest) = (model.settings().mass, model.settings().fastest);
         let momentum_quanta = momentum(system);
         let angular_momentum_quanta = angular_momentum(system);
         let position = system.particles.position();
@@ -132,7 +134,7 @@ impl Diagnostics {
         energies[0] = squares(system) * 0.5 * mass * (sq * sq);
         Ok(Self {
             energies: Energies::new(M::ENERGIES, energies),
-            histogram: SpeedHistogram::measure(system, model.fastest() / BINS as f64, sq),
+            histogram: SpeedHistogram::measure(system, fastest / BINS as f64, sq),
             momentum: momentum_quanta.map(|q| q as f64 * (sq * mass)),
             angular_momentum: angular_momentum_quanta.map(|q| q as f64 * (sq * lq * mass)),
             momentum_quanta,

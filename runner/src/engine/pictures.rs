@@ -31,7 +31,7 @@ pub(super) fn frame<A: Arithmetic, M: Model<A, D>, const D: usize>(
     Frame {
         dimension: D,
         step: system.clock.step,
-        particle_mass: model.mass(),
+        particle_mass: model.settings().mass,
         id: places.iter().map(|&i| view.id[i]).collect(),
         position: places.iter().map(|&i| si(&position[i], lq)).collect(),
         velocity: places.iter().map(|&i| si(&velocity[i], sq)).collect(),

@@ -29,13 +29,13 @@ use crate::drive::{Drive, Group};
 use crate::pool::Rayon;
 use layout::{Crew, Layout};
 use loschmidt_core::fault::MAX_NEIGHBOURS;
-use loschmidt_core::fields::{Operands, POSITION, Set, VELOCITY};
+use loschmidt_core::fields::{IMPULSE, Operands, POSITION, Set, VELOCITY};
 use loschmidt_core::integrator::Stage;
 use loschmidt_core::model::{Model, Relax};
 use loschmidt_core::neighbours::{Cells, Grid};
 use loschmidt_core::pairs::{PairPass, Sources, Targets, term_count};
 use loschmidt_core::points::{PointPass, visit};
-use loschmidt_core::schemes::wcsph::{Filtered, IMPULSE, Symplectic};
+use loschmidt_core::schemes::wcsph::{Filtered, Symplectic};
 use loschmidt_core::shears;
 use loschmidt_core::{Arithmetic, Executor, Fault, System};
 use memory::{LIMIT, Memory};
@@ -372,7 +372,7 @@ impl KicksAndDrift {
         x: &mut [A::Word; D],
         v: &mut [A::Word; D],
     ) -> Result<(), Fault> {
-        let kick = shears::Kick::<IMPULSE>;
+        let kick = shears::Kick;
         let mut add = || PointPass::<A, D>::at(&kick, id, impulse, v);
         add().map_err(|fault| fault.at_step(self.first_step))?;
         if self.twice {

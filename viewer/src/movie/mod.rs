@@ -43,6 +43,19 @@ pub struct Style {
     pub tint: Option<Picture>,
 }
 
+impl Default for Style {
+    /// 300 pictures of 1280 by 720 pixels, ten seconds long.
+    fn default() -> Self {
+        Self {
+            size: (1280, 720),
+            fps: 30,
+            pictures: 300,
+            look: Look::default(),
+            tint: None,
+        }
+    }
+}
+
 impl Style {
     /// What the pixels depend on, besides the run.
     fn text(&self) -> String {

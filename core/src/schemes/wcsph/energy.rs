@@ -13,7 +13,7 @@ use crate::fault::{Fault, FaultKind};
 use crate::fields::{Side, View};
 use crate::model::{MAX_ENERGIES, Measure};
 use crate::number::{Arithmetic, Quantity};
-use crate::pairs::{PairPass, Sources, Targets, gather};
+use crate::observe::sum_over_pairs;
 use crate::system::System;
 
 /// Kinds of energy.
@@ -30,11 +30,6 @@ pub(super) const COLUMNS: &[Measure] = &[
         unit: "Pa",
     },
 ];
-
-/// Upper end of the histogram of speeds: c/6.
-pub(super) fn fastest<A: Arithmetic, const D: usize>(water: &Water<A, D>) -> f64 {
-    water.parameters().sound_speed / 6.0
-}
 
 /// Density or pressure of a particle.
 pub(super) fn column<A: Arithmetic, const D: usize>(
@@ -88,37 +83,6 @@ fn compression<A: Arithmetic, const D: usize>(
     first.map_or(Ok(unit * sum.value()), Err)
 }
 
-/// Σ over the fluid of the terms with the particles of one side, `times` over.
-fn sum_of<A: Arithmetic, P: PairPass<D, Term<ExactSum> = ExactSum>, const D: usize>(
-    system: &System<'_, A, D>,
-    pass: &P,
-    from: Side,
-    times: usize,
-    mut sum: ExactSum,
-) -> Result<ExactSum, Fault> {
-    let (fluid, ..) = system.side(Side::Particles);
-    let (others, cells, grid) = system.side(from);
-    let to: Targets<'_, A, D> = Targets {
-        position: fluid.position(),
-        read: &[],
-        id: fluid.id,
-        same_set: from == Side::Particles,
-    };
-    let from: Sources<'_, A, D> = Sources {
-        grid,
-        cells,
-        position: others.position(),
-        read: &[],
-    };
-    for (i, id) in fluid.id.iter().enumerate() {
-        for _ in 0..times {
-            gather::<A, P, ExactSum, D>(pass, &to, i, &from, &mut sum)
-                .map_err(|kind| Fault::new(kind, *id))?;
-        }
-    }
-    Ok(sum)
-}
-
 /// Energy of particles that are very near to each other.
 fn clump<A: Arithmetic, const D: usize>(
     water: &Water<A, D>,
@@ -127,10 +91,10 @@ fn clump<A: Arithmetic, const D: usize>(
     let Some((energy, pass)) = water.anti_clump_energy_pass() else {
         return Ok(0.0);
     };
-    let mut sum = sum_of(system, &pass, Side::Particles, 1, ExactSum::default())?;
+    let mut sum = sum_over_pairs(system, &pass, Side::Particles, 1, ExactSum::default())?;
     if water.has_dummies(system) {
         // Once for the particle and once for the dummy, which has no turn of its own.
-        sum = sum_of(system, &pass, Side::Walls, 2, sum)?;
+        sum = sum_over_pairs(system, &pass, Side::Walls, 2, sum)?;
     }
     Ok(water.parameters().mass * energy * sum.value())
 }
@@ -143,7 +107,7 @@ fn repulsion_of_walls<A: Arithmetic, const D: usize>(
     let Some((energy, pass)) = water.wall_energy_pass() else {
         return Ok(0.0);
     };
-    let sum = sum_of(system, &pass, Side::Walls, 1, ExactSum::default())?;
+    let sum = sum_over_pairs(system, &pass, Side::Walls, 1, ExactSum::default())?;
     Ok(water.parameters().mass * energy * sum.value())
 }
 

@@ -15,15 +15,15 @@
 //!
 //! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, appendix A.
 
-use super::fields::IMPULSE;
 use super::parameters::Parameters;
 use super::symplectic::Symplectic;
-use super::updates::{Average, NoImpulse};
+use super::updates::Average;
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::VELOCITY;
+use crate::fields::{IMPULSE, VELOCITY};
 use crate::model::{Dissipative, Model, Relax, SetupError};
 use crate::number::Arithmetic;
+use crate::shears::NoImpulse;
 use crate::system::System;
 
 /// [`Symplectic`] with a filter after every M-th step.

@@ -2,10 +2,9 @@
 //!
 //! J = R(c dt g) + R(-c dt GM x/(|x|² + s²)^(3/2)), x measured from the centre of the mass.
 
-use super::fields::IMPULSE;
 use super::parameters::{Central, Parameters};
 use crate::fault::{Fault, FaultKind};
-use crate::fields::POSITION;
+use crate::fields::{IMPULSE, POSITION};
 use crate::number::{Arithmetic, Quantity, sqrt};
 use crate::points::PointPass;
 

@@ -17,7 +17,7 @@ mod symplectic;
 mod updates;
 mod water;
 
-pub use fields::{CONSTANT, DENSITY, FIXED_DENSITY, IMPULSE, PRESSURE};
+pub use fields::{CONSTANT, DENSITY, FIXED_DENSITY, PRESSURE};
 pub use filtered::{Filter, Filtered};
 pub use gravity::Pull;
 pub use parameters::{AntiClump, Central, DensityCorrection, Gravity, Parameters, Wall};

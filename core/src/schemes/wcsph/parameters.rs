@@ -2,8 +2,9 @@
 
 use super::StateEquation;
 use crate::integrator::Integrator;
-use crate::model::SetupError;
-use crate::number::Scale;
+use crate::model::{Settings, SetupError};
+use crate::neighbours::Grid;
+use crate::number::{Scale, round};
 
 /// Attraction by a fixed mass: a = -GM x/(|x|² + s²)^(3/2), x measured from the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,6 +103,32 @@ pub struct Parameters<const D: usize> {
 }
 
 impl<const D: usize> Parameters<D> {
+    /// What every model says of itself, for sums that reach so far (m, each with the name of the
+    /// parameter it comes from) between particles and to walls, and speeds up to `fastest` (m/s).
+    ///
+    /// # Errors
+    /// A reach out of the number range.
+    pub fn settings(
+        &self,
+        reaches: [(&'static str, f64); 2],
+        fastest: f64,
+    ) -> Result<Settings<D>, SetupError> {
+        let length = self.scale.length_quantum();
+        let extent = self.extent.map(|e| (e / length) as i64);
+        let grid = |(name, value): (&'static str, f64)| {
+            let reach = round(value / length).ok_or(SetupError::Parameter { name, value })?;
+            Ok(Grid::new(reach, extent, self.max_buckets))
+        };
+        Ok(Settings {
+            scale: self.scale,
+            mass: self.mass,
+            time_step: self.time_step,
+            integrator: self.integrator,
+            fastest,
+            grids: [grid(reaches[0])?, grid(reaches[1])?],
+        })
+    }
+
     /// Checks every number.
     ///
     /// # Errors

@@ -311,13 +311,6 @@ impl<const D: usize> PairPass<D> for WallPass {
     fn reach_squared(&self) -> f64 {
         self.geometry.radius_squared
     }
-    fn bound(&self, _: &[f64; 0]) -> f64 {
-        f64::INFINITY
-    }
-    #[inline(always)]
-    fn argument<L: Lanes>(&self, r2: L) -> L {
-        r2
-    }
     #[inline(always)]
     fn term<L: Lanes>(&self, x_ij: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> [L; D] {
         let (s, softened) = self.geometry.s(r2);
@@ -338,13 +331,6 @@ impl<const D: usize> PairPass<D> for WallEnergyPass {
     #[inline(always)]
     fn reach_squared(&self) -> f64 {
         self.geometry.radius_squared
-    }
-    fn bound(&self, _: &[f64; 0]) -> f64 {
-        f64::INFINITY
-    }
-    #[inline(always)]
-    fn argument<L: Lanes>(&self, r2: L) -> L {
-        r2
     }
     #[inline(always)]
     fn term<L: Lanes>(&self, _: &[L; D], r2: L, _: &[L; 0], _: &[L; 0]) -> L {

@@ -13,7 +13,7 @@
 //! grows until the run ends (Fig. 2 of Kincl & Pavelka 2023). The integrator table is not used.
 
 use super::energy;
-use super::fields::{CONSTANT, IMPULSE, fields};
+use super::fields::{CONSTANT, fields};
 use super::parameters::Parameters;
 use super::updates::Evolved;
 use super::water::Water;
@@ -21,10 +21,9 @@ use crate::executor::Executor;
 use crate::fault::Fault;
 use crate::fields::{Field, Side, VELOCITY, View};
 use crate::integrator::Stage;
-use crate::model::{MAX_ENERGIES, Measure, Model, Reversibility, SetupError};
-use crate::neighbours::Grid;
-use crate::number::{Arithmetic, Scale};
-use crate::shears::Kick;
+use crate::model::{MAX_ENERGIES, Measure, Model, Reversibility, Settings, SetupError};
+use crate::number::Arithmetic;
+use crate::shears;
 use crate::system::{Sum, System};
 
 /// Weakly compressible SPH as usually discretised.
@@ -61,12 +60,7 @@ impl<A: Arithmetic, const D: usize> Standard<A, D> {
         self.water
             .sum_over_all(system, exec, &pass, read, CONSTANT)?;
         if self.water.has_dummies(system) {
-            let of_fluid = Sum {
-                to: Side::Walls,
-                from: Side::Particles,
-                read,
-                into: CONSTANT,
-            };
+            let of_fluid = Sum::to_walls(Side::Particles, read, CONSTANT);
             system.sum(exec, &pass, of_fluid)?;
         }
         Ok(())
@@ -79,17 +73,8 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
     const COLUMNS: &'static [Measure] = energy::COLUMNS;
     const REVERSIBILITY: Reversibility = Reversibility::Irreversible;
 
-    fn scale(&self) -> Scale {
-        self.water.parameters().scale
-    }
-    fn mass(&self) -> f64 {
-        self.water.parameters().mass
-    }
-    fn fastest(&self) -> f64 {
-        energy::fastest(&self.water)
-    }
-    fn grids(&self) -> [&Grid<D>; 2] {
-        self.water.grids()
+    fn settings(&self) -> &Settings<D> {
+        self.water.settings()
     }
 
     /// ρ ← ρ0.
@@ -141,7 +126,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
         exec: &E,
     ) -> Result<(), Fault> {
         match stage {
-            Stage::Kick(_) => exec.points(&Kick::<IMPULSE>, &mut system.particles),
+            Stage::Kick(_) => exec.points(&shears::Kick, &mut system.particles),
             Stage::Drift(c) => exec.points(&self.water.drift(c), &mut system.particles),
             Stage::Lift(c) => self.continuity(system, exec, c),
             Stage::Relax => Ok(()),

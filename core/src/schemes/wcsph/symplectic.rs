@@ -10,7 +10,7 @@
 //! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, sections 2 to 4.
 
 use super::energy;
-use super::fields::{CONSTANT, DENSITY, IMPULSE, fields};
+use super::fields::{CONSTANT, DENSITY, fields};
 use super::parameters::Parameters;
 use super::updates::{Corrected, Fixed};
 use super::water::Water;
@@ -18,10 +18,8 @@ use crate::executor::Executor;
 use crate::fault::Fault;
 use crate::fields::{Field, Side, View};
 use crate::integrator::Stage;
-use crate::model::{MAX_ENERGIES, Measure, Model, Reversibility, SetupError};
-use crate::neighbours::Grid;
-use crate::number::{Arithmetic, Scale};
-use crate::shears::Kick;
+use crate::model::{MAX_ENERGIES, Measure, Model, Settings, SetupError};
+use crate::number::Arithmetic;
 use crate::system::{Sum, System};
 
 /// Reversible weakly compressible SPH ("model A").
@@ -58,23 +56,9 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
     const FIELDS: &'static [Field] = &fields("density_constant");
     const ENERGIES: &'static [&'static str] = energy::NAMES;
     const COLUMNS: &'static [Measure] = energy::COLUMNS;
-    const REVERSIBILITY: Reversibility = if A::EXACT {
-        Reversibility::BitExact
-    } else {
-        Reversibility::UpToRounding
-    };
 
-    fn scale(&self) -> Scale {
-        self.water.parameters().scale
-    }
-    fn mass(&self) -> f64 {
-        self.water.parameters().mass
-    }
-    fn fastest(&self) -> f64 {
-        energy::fastest(&self.water)
-    }
-    fn grids(&self) -> [&Grid<D>; 2] {
-        self.water.grids()
+    fn settings(&self) -> &Settings<D> {
+        self.water.settings()
     }
 
     /// Dummies do not move: what they add to each other's density is summed once.
@@ -89,12 +73,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
             return Ok(());
         }
         exec.points(&self.water.own(), &mut system.walls)?;
-        let of_walls = Sum {
-            to: Side::Walls,
-            from: Side::Walls,
-            read: &[],
-            into: DENSITY,
-        };
+        let of_walls = Sum::to_walls(Side::Walls, &[], DENSITY);
         system.sum(exec, &self.water.density_pass(), of_walls)?;
         exec.points(&Fixed, &mut system.walls)
     }
@@ -123,10 +102,6 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         self.densities(system, exec)
     }
 
-    fn stages(&self, _: u64) -> impl Iterator<Item = Stage> {
-        self.water.parameters().integrator.stages.iter().copied()
-    }
-
     fn prepare<E: Executor>(
         &self,
         stage: Stage,
@@ -138,19 +113,6 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
             self.water.impulses(system, exec, c)?;
         }
         Ok(())
-    }
-
-    fn apply<E: Executor>(
-        &self,
-        stage: Stage,
-        system: &mut System<'_, A, D>,
-        exec: &E,
-    ) -> Result<(), Fault> {
-        match stage {
-            Stage::Kick(_) => exec.points(&Kick::<IMPULSE>, &mut system.particles),
-            Stage::Drift(c) => exec.points(&self.water.drift(c), &mut system.particles),
-            Stage::Lift(_) | Stage::Relax => Ok(()),
-        }
     }
 
     fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault> {

@@ -1,9 +1,9 @@
 //! What happens to one particle between the sums over pairs.
 
-use super::fields::{CONSTANT, DENSITY, FIXED_DENSITY, IMPULSE, PRESSURE};
+use super::fields::{CONSTANT, DENSITY, FIXED_DENSITY, PRESSURE};
 use super::state_equation::StateEquation;
 use crate::fault::{Fault, FaultKind};
-use crate::fields::VELOCITY;
+use crate::fields::{IMPULSE, VELOCITY};
 use crate::number::{Arithmetic, Quantity, Word};
 use crate::points::PointPass;
 use crate::values;
@@ -162,22 +162,6 @@ values! {
         density: T,
         /// C_a, in density quanta.
         constant: T,
-    }
-}
-
-/// The sums of a filter begin with nothing.
-#[derive(Clone, Copy, Debug)]
-pub struct NoImpulse;
-
-impl<A: Arithmetic, const D: usize> PointPass<A, D> for NoImpulse {
-    type Read<T: Copy> = [T; 0];
-    type Write<T: Copy> = [T; D];
-    const READ: &'static [usize] = &[];
-    const WRITE: &'static [usize] = &[IMPULSE];
-    #[inline(always)]
-    fn at(&self, _: u64, _: &[A::Word; 0], impulse: &mut [A::Word; D]) -> Result<(), Fault> {
-        *impulse = [A::Word::ZERO; D];
-        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@
 //!
 //! c is the kick's share of the time step dt. Symbols and units: [`Parameters`].
 
-use super::fields::{DENSITY, IMPULSE, PRESSURE};
+use super::fields::{DENSITY, PRESSURE};
 use super::gravity::Pull;
 use super::parameters::{DensityCorrection, Parameters, Wall};
 use super::passes::{
@@ -15,10 +15,9 @@ use super::passes::{
 use super::updates::{Constants, FromFixed, OwnDensity, PressureFactor};
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::Side;
-use crate::model::SetupError;
-use crate::neighbours::Grid;
-use crate::number::{Arithmetic, Quantity, round};
+use crate::fields::{IMPULSE, Side};
+use crate::model::{Settings, SetupError};
+use crate::number::{Arithmetic, Quantity};
 use crate::pairs::PairPass;
 use crate::shears::Drift;
 use crate::system::{Sum, System};
@@ -28,8 +27,7 @@ use crate::system::{Sum, System};
 pub struct Water<A: Arithmetic, const D: usize> {
     parameters: Parameters<D>,
     reach: Reach,
-    grid: Grid<D>,
-    wall_grid: Grid<D>,
+    settings: Settings<D>,
     /// 1/ρ0 in 1/quanta of density.
     inverse_reference: f64,
     /// ρ0 and m W(0), rounded to density quanta.
@@ -54,14 +52,11 @@ impl<A: Arithmetic, const D: usize> Water<A, D> {
         let p = &parameters;
         let (length, density) = (p.scale.length_quantum(), p.scale.density_quantum());
         let no = |name, value| SetupError::Parameter { name, value };
-        let quanta = |name, metres: f64| round(metres / length).ok_or(no(name, metres));
         let support_radius = p.support_radius;
-        let reach_quanta = quanta("support_radius", support_radius)?;
-        let wall_quanta = match p.wall {
-            Wall::Conservative { radius, .. } => quanta("wall.radius", radius)?,
-            Wall::Dummy | Wall::None => reach_quanta,
+        let of_walls = match p.wall {
+            Wall::Conservative { radius, .. } => ("wall.radius", radius),
+            Wall::Dummy | Wall::None => ("support_radius", support_radius),
         };
-        let extent = p.extent.map(|e| (e / length) as i64);
         let reach = Reach::new(D, support_radius, length);
         let own = reach.largest_value() * (p.mass / density);
         let mut centre = [A::Word::ZERO; D];
@@ -73,8 +68,11 @@ impl<A: Arithmetic, const D: usize> Water<A, D> {
         let reference = p.reference_density;
         Ok(Self {
             reach,
-            grid: Grid::new(reach_quanta, extent, p.max_buckets),
-            wall_grid: Grid::new(wall_quanta, extent, p.max_buckets),
+            // The flow is to be much slower than sound.
+            settings: p.settings(
+                [("support_radius", support_radius), of_walls],
+                p.sound_speed / 6.0,
+            )?,
             inverse_reference: density / reference,
             reference_density: rounded(reference, density, no("reference_density", reference))?,
             own_density: rounded(own, 1.0, SetupError::Support { support_radius })?,
@@ -88,10 +86,10 @@ impl<A: Arithmetic, const D: usize> Water<A, D> {
     pub fn parameters(&self) -> &Parameters<D> {
         &self.parameters
     }
-    /// Geometry of the cells of fluid and walls.
+    /// What every model says of itself.
     #[must_use]
-    pub fn grids(&self) -> [&Grid<D>; 2] {
-        [&self.grid, &self.wall_grid]
+    pub fn settings(&self) -> &Settings<D> {
+        &self.settings
     }
     /// ρ/ρ0 of a density in quanta.
     #[inline]
@@ -265,15 +263,9 @@ impl<A: Arithmetic, const D: usize> Water<A, D> {
         read: &[usize],
         into: usize,
     ) -> Result<(), Fault> {
-        let sum = |from| Sum {
-            to: Side::Particles,
-            from,
-            read,
-            into,
-        };
-        system.sum(exec, pass, sum(Side::Particles))?;
+        system.sum(exec, pass, Sum::to_particles(Side::Particles, read, into))?;
         if self.has_dummies(system) {
-            system.sum(exec, pass, sum(Side::Walls))?;
+            system.sum(exec, pass, Sum::to_particles(Side::Walls, read, into))?;
         }
         Ok(())
     }
@@ -298,12 +290,7 @@ impl<A: Arithmetic, const D: usize> Water<A, D> {
             return Ok(());
         }
         exec.points(&FromFixed, &mut system.walls)?;
-        let of_fluid = Sum {
-            to: Side::Walls,
-            from: Side::Particles,
-            read: &[],
-            into: DENSITY,
-        };
+        let of_fluid = Sum::to_walls(Side::Particles, &[], DENSITY);
         system.sum(exec, &self.density_pass(), of_fluid)
     }
 
@@ -356,12 +343,7 @@ impl<A: Arithmetic, const D: usize> Water<A, D> {
             self.sum_over_all(system, exec, &pass, &[], IMPULSE)?;
         }
         if let Some(pass) = self.wall_pass(duration) {
-            let of_walls = Sum {
-                to: Side::Particles,
-                from: Side::Walls,
-                read: &[],
-                into: IMPULSE,
-            };
+            let of_walls = Sum::to_particles(Side::Walls, &[], IMPULSE);
             system.sum(exec, &pass, of_walls)?;
         }
         Ok(())

@@ -1,0 +1,4 @@
+//! What the examples claim.
+
+mod embedded;
+mod lennard_jones;
