@@ -341,6 +341,7 @@ struct KicksAndDrift {
 }
 
 impl KicksAndDrift {
+    /// Does it to all particles of a layout.
     fn of_all<A: Arithmetic, const D: usize>(
         &self,
         layout: &Layout,
@@ -351,19 +352,24 @@ impl KicksAndDrift {
         let x = layout.split_places(x.as_chunks_mut::<D>().0, 1);
         let v = layout.split_places(v.as_chunks_mut::<D>().0, 1);
         let parts = x.into_iter().zip(v).collect();
-        first_fault(layout.for_parts(parts, |strips, (x, v)| {
+        let faults = layout.for_parts(parts, |strips, (x, v)| {
             let places = layout.places_of(&strips);
             let (ids, impulses) = (&ids[places.clone()], &impulses[places]);
-            let mut first: Option<Fault> = None;
+            let mut first = [None; 3];
             for (((x, v), impulse), id) in x.iter_mut().zip(v).zip(impulses).zip(ids) {
-                if let Err(fault) = self.at::<A, D>(*id, impulse, x, v) {
-                    first = Some(first.map_or(fault, |other: Fault| other.first(fault)));
+                if let Err((stage, fault)) = self.at::<A, D>(*id, impulse, x, v) {
+                    first[stage] = earlier(first[stage], Some(fault));
                 }
             }
-            first.map_or(Ok(()), Err)
-        }))
+            first
+        });
+        // The reference does all of one stage before the next: so the earliest stage has the word.
+        let of_stage = |stage: usize| faults.iter().map(move |of_part| of_part[stage]);
+        let mut stages = (0..3).filter_map(|stage| of_stage(stage).fold(None, earlier));
+        stages.next().map_or(Ok(()), Err)
     }
 
+    /// Does it to one particle; a fault comes with the number of its stage.
     #[inline(always)]
     fn at<A: Arithmetic, const D: usize>(
         &self,
@@ -371,13 +377,19 @@ impl KicksAndDrift {
         impulse: &[A::Word; D],
         x: &mut [A::Word; D],
         v: &mut [A::Word; D],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), (usize, Fault)> {
         let kick = shears::Kick;
         let mut add = || PointPass::<A, D>::at(&kick, id, impulse, v);
-        add().map_err(|fault| fault.at_step(self.first_step))?;
+        add().map_err(|fault| (0, fault.at_step(self.first_step)))?;
         if self.twice {
-            add().map_err(|fault| fault.at_step(self.step))?;
+            add().map_err(|fault| (1, fault.at_step(self.step)))?;
         }
-        PointPass::<A, D>::at(&self.drift, id, v, x).map_err(|fault| fault.at_step(self.step))
+        let drifted = PointPass::<A, D>::at(&self.drift, id, v, x);
+        drifted.map_err(|fault| (2, fault.at_step(self.step)))
     }
+}
+
+/// Of two faults the first, if there is one.
+fn earlier(a: Option<Fault>, b: Option<Fault>) -> Option<Fault> {
+    a.into_iter().chain(b).reduce(Fault::first)
 }

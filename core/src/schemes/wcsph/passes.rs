@@ -74,7 +74,8 @@ impl<const D: usize> PairPass<D> for DensityPass {
         self.reach.squared
     }
     fn bound(&self, _: &[f64; 0]) -> f64 {
-        (self.reach.largest_value() * self.mass).abs()
+        // A little more, for roundings.
+        1.001 * (self.reach.largest_value() * self.mass).abs()
     }
     #[inline(always)]
     fn argument<L: Lanes>(&self, r2: L) -> L {
