@@ -1,4 +1,5 @@
-//! Draws the picture that the movie in the README is tinted with: an hourglass before the rays of a sun.
+//! Draws the picture that the movie in the README is tinted with: an hourglass before the rays of a
+//! sun.
 //!
 //!     cargo run --release -p loschmidt-examples --example hourglass -- examples/pictures/hourglass.png
 //!

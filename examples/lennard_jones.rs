@@ -1,9 +1,10 @@
 //! A model of one's own: a Lennard-Jones gas, released from half of its box and called back.
 //!
-//! u(r) = 4ε((σ/r)¹² - (σ/r)⁶) - the same at r_c, for r < r_c = 2.5 σ, and 0 beyond; within 0.6 σ, where
-//! no particle comes, a parabola. Walls are atoms that stand still. The experiment is that of J. Orban
-//! and A. Bellemans (Phys. Lett. A 24 (1967) 620), in integers as by D. Levesque and L. Verlet
-//! (J. Stat. Phys. 72 (1993) 519): all velocities are reversed, and the gas goes back into its half.
+//! u(r) = 4ε((σ/r)¹² - (σ/r)⁶) - the same at r_c, for r < r_c = 2.5 σ, and 0 beyond; within 0.6 σ,
+//! where no particle comes, a parabola. Walls are atoms that stand still. The experiment is that of
+//! J. Orban and A. Bellemans (Phys. Lett. A 24 (1967) 620), in integers as by D. Levesque and L.
+//! Verlet (J. Stat. Phys. 72 (1993) 519): all velocities are reversed, and the gas goes back into
+//! its half.
 //!
 //! ```text
 //! cargo run --release -p loschmidt-examples --example lennard_jones -- /tmp/gas
@@ -13,7 +14,7 @@ use loschmidt_core::prelude::*;
 use loschmidt_runner::own::{Build, OwnModel, register};
 use loschmidt_runner::scene::{Source, load};
 use loschmidt_runner::{Options, Run, setup, simulate};
-use loschmidt_viewer::movie::{Movie, Stored, Style};
+use loschmidt_viewer::movie::{Movie, MovieStyle, Stored};
 use std::{error::Error, path::Path, sync::atomic::AtomicBool};
 
 /// Two streams in half a box of 40 x 40 σ, 512 atoms of mass 1; lengths in σ, energies in ε.
@@ -26,11 +27,17 @@ wall_model = "dummy"           # walls are atoms like the others
 turnaround = 10.0
 fluid = { reference_density = 0.64, sound_speed = 10.0 }
 output = { rows = 200, frames = 20 }
-region = [
-    { kind = "fluid", velocity.uniform = [1.2, 0.9], shape.rectangle = { min = [0.0, 0.0], max = [20.0, 20.0] } },
-    { kind = "fluid", velocity.uniform = [1.0, -1.1], shape.rectangle = { min = [0.0, 20.0], max = [20.0, 40.0] } },
-    { kind = "wall", shape.layer = { around.rectangle = { min = [0.0, 0.0], max = [40.0, 40.0] }, depth = 2.5 } },
-]
+[[region]]
+kind = "fluid"
+velocity.uniform = [1.2, 0.9]
+shape.rectangle = { min = [0.0, 0.0], max = [20.0, 20.0] }
+[[region]]
+kind = "fluid"
+velocity.uniform = [1.0, -1.1]
+shape.rectangle = { min = [0.0, 20.0], max = [20.0, 40.0] }
+[[region]]
+kind = "wall"
+shape.layer = { around.rectangle = { min = [0.0, 0.0], max = [40.0, 40.0] }, depth = 2.5 }
 "#;
 
 /// The law of a pair. The force per mass is 24 (ε/m) (2 s¹² - s⁶)/r² x_ij, with s = σ/r.
@@ -180,9 +187,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("returned to its first bit: {}", exact == Some(true));
     let run = Stored::open(out)?;
-    let style = Style {
+    let style = MovieStyle {
         pictures: 20,
-        ..Style::default()
+        ..MovieStyle::default()
     };
     let mut movie = Movie::create(&out.join("movie"), true, style, "gas", &run.identity())?;
     movie.render(&run, |_| {}, &stop)?;

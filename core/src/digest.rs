@@ -76,8 +76,8 @@ impl Hashing {
     }
 }
 
-/// Most words in one particle's record: kind, id, and the words of its state.
-const MAX_WORDS: usize = 64;
+/// Words of a particle's record that are hashed at a time; most records are shorter.
+const PIECE: usize = 32;
 
 /// Fluid or wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,18 +110,22 @@ pub struct Header<'a> {
 pub struct ParticleSum(u128);
 
 impl ParticleSum {
-    /// Adds a particle with these words (at most 62) after kind and id.
+    /// Adds a particle with these words after kind and id.
     pub fn add(&mut self, kind: Kind, id: u64, words: impl IntoIterator<Item = i64>) {
-        let mut bytes = [0u8; 8 * MAX_WORDS];
+        let mut hashing = Hashing::default();
+        let mut piece = [0u8; 8 * PIECE];
         let mut used = 0;
         let head = [i64::from(kind == Kind::Wall), id as i64];
         for word in head.into_iter().chain(words) {
-            bytes[used..used + 8].copy_from_slice(&word.to_le_bytes());
+            if used == piece.len() {
+                hashing.add(&piece);
+                used = 0;
+            }
+            piece[used..used + 8].copy_from_slice(&word.to_le_bytes());
             used += 8;
         }
-        self.0 = self
-            .0
-            .wrapping_add(u128::from_le_bytes(hash(&bytes[..used])));
+        hashing.add(&piece[..used]);
+        self.0 = self.0.wrapping_add(u128::from_le_bytes(hashing.finish()));
     }
 
     /// The digest of header and sum.

@@ -27,9 +27,9 @@ pub enum FaultKind {
 
 /// Most neighbours in one pass over pairs.
 ///
-/// A density takes at most two passes (fluid and walls), the particle's own term and C_a: 2 * 2046 + 2
+/// A density takes at most two passes (fluid and walls), the particle's own term and C_a: 4,094
 /// numbers of at most 2^51 each, which stay below 2^63. A velocity takes at most four in one kick
-/// (pressure and repulsion, each of fluid and walls), two terms of gravity, and itself: 4 * 2046 + 3
+/// (pressure and repulsion, each of fluid and walls), two terms of gravity, and itself: 8,187
 /// numbers. That may wrap once, but it is below 2^64 - 2^51: no sum can come back into the range
 /// unseen.
 pub const MAX_NEIGHBOURS: u32 = 2046;
@@ -63,8 +63,8 @@ impl Fault {
     pub fn at_step(self, step: u64) -> Self {
         Self { step, ..self }
     }
-    /// Of two faults in one pass, the one that is reported, of the earlier step or of the smaller id:
-    /// independent of who finds it first.
+    /// Of two faults in one pass, the one that is reported, of the earlier step or of the smaller
+    /// id: independent of who finds it first.
     #[must_use]
     pub fn first(self, other: Self) -> Self {
         if (other.step, other.particle) < (self.step, self.particle) {

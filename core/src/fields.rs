@@ -2,8 +2,8 @@
 //!
 //! A model declares a list of [`Field`]s. Everything that must know of what a particle consists
 //! reads that list: storage, checks of capacity, estimates of memory, digest, snapshot, reversal,
-//! reordering. The first three fields of every model are the position, the velocity and, as scratch,
-//! the impulse.
+//! reordering. The first three fields of every model are the position, the velocity and, as
+//! scratch, the impulse.
 //!
 //! A [`Set`] is the particles of one kind (those that move, or the walls) on lent memory: one slice
 //! of words for each field, particle after particle. Fields of the *state* are what a run is;
@@ -59,7 +59,7 @@ impl Quantum {
 
 /// How many words a field has in D dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum Rank {
     /// One.
     Scalar,
     /// D.
@@ -68,6 +68,13 @@ pub enum Shape {
     Symmetric,
     /// D².
     Matrix,
+    /// So many in the plane and in space: sums of several kinds that a pass adds at once.
+    Several {
+        /// Words in two dimensions.
+        plane: usize,
+        /// Words in three dimensions.
+        space: usize,
+    },
 }
 
 /// What a field is to the particles of one set.
@@ -87,7 +94,7 @@ pub struct Field {
     /// Name in digests, snapshots and messages.
     pub name: &'static str,
     /// Words for each particle.
-    pub shape: Shape,
+    pub rank: Rank,
     /// Unit of a word.
     pub quantum: Quantum,
     /// Behaviour under time reversal.
@@ -103,13 +110,13 @@ impl Field {
     #[must_use]
     pub const fn state(
         name: &'static str,
-        shape: Shape,
+        rank: Rank,
         quantum: Quantum,
         parity: TimeParity,
     ) -> Self {
         Self {
             name,
-            shape,
+            rank,
             quantum,
             parity,
             particles: Role::State,
@@ -119,10 +126,10 @@ impl Field {
 
     /// Scratch of particles that move; walls do not have it.
     #[must_use]
-    pub const fn scratch(name: &'static str, shape: Shape, quantum: Quantum) -> Self {
+    pub const fn scratch(name: &'static str, rank: Rank, quantum: Quantum) -> Self {
         Self {
             particles: Role::Scratch,
-            ..Self::state(name, shape, quantum, TimeParity::Even)
+            ..Self::state(name, rank, quantum, TimeParity::Even)
         }
     }
 
@@ -150,27 +157,30 @@ impl Field {
     /// Words for each particle of a set.
     #[must_use]
     pub const fn words(&self, side: Side, dimension: usize) -> usize {
-        match (self.role(side), self.shape) {
+        match (self.role(side), self.rank) {
             (Role::Absent, _) => 0,
-            (_, Shape::Scalar) => 1,
-            (_, Shape::Vector) => dimension,
-            (_, Shape::Symmetric) => dimension * (dimension + 1) / 2,
-            (_, Shape::Matrix) => dimension * dimension,
+            (_, Rank::Scalar) => 1,
+            (_, Rank::Vector) => dimension,
+            (_, Rank::Symmetric) => dimension * (dimension + 1) / 2,
+            (_, Rank::Matrix) => dimension * dimension,
+            (_, Rank::Several { plane, space }) => match dimension {
+                2 => plane,
+                _ => space,
+            },
         }
     }
 }
 
 /// x, as every model declares it.
 pub const POSITION_FIELD: Field =
-    Field::state("position", Shape::Vector, Quantum::Length, TimeParity::Even)
-        .on_walls(Role::State);
+    Field::state("position", Rank::Vector, Quantum::Length, TimeParity::Even).on_walls(Role::State);
 
 /// v of the particles that move.
 pub const VELOCITY_FIELD: Field =
-    Field::state("velocity", Shape::Vector, Quantum::Speed, TimeParity::Odd);
+    Field::state("velocity", Rank::Vector, Quantum::Speed, TimeParity::Odd);
 
 /// J, the impulse per mass of the present kick.
-pub const IMPULSE_FIELD: Field = Field::scratch("impulse", Shape::Vector, Quantum::Speed);
+pub const IMPULSE_FIELD: Field = Field::scratch("impulse", Rank::Vector, Quantum::Speed);
 
 /// Which particles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -280,7 +290,7 @@ pub fn check_capacity(
 
 /// Particles of one kind, to be read.
 #[derive(Clone, Copy, Debug)]
-pub struct View<'a, A: Arithmetic, const D: usize> {
+pub struct SetView<'a, A: Arithmetic, const D: usize> {
     /// Identity, given by the initial lattice order; travels with the storage. Walls count on from
     /// the last particle that moves.
     pub id: &'a [u64],
@@ -288,7 +298,7 @@ pub struct View<'a, A: Arithmetic, const D: usize> {
     columns: [&'a [A::Word]; MAX_FIELDS],
 }
 
-impl<'a, A: Arithmetic, const D: usize> View<'a, A, D> {
+impl<'a, A: Arithmetic, const D: usize> SetView<'a, A, D> {
     /// Positions, in length quanta.
     #[inline]
     #[must_use]
@@ -338,7 +348,7 @@ impl<'a, A: Arithmetic, const D: usize> View<'a, A, D> {
 /// Particles of one kind, in any storage order.
 #[derive(Debug)]
 pub struct Set<'a, A: Arithmetic, const D: usize> {
-    /// Identity; see [`View::id`].
+    /// Identity; see [`SetView::id`].
     pub id: &'a mut [u64],
     side: Side,
     fields: &'static [Field],
@@ -404,8 +414,8 @@ impl<'a, A: Arithmetic, const D: usize> Set<'a, A, D> {
 
     /// All of it, to be read.
     #[must_use]
-    pub fn view(&self) -> View<'_, A, D> {
-        View {
+    pub fn view(&self) -> SetView<'_, A, D> {
+        SetView {
             id: self.id,
             fields: self.fields,
             columns: self.columns.each_ref().map(|column| &**column),
@@ -417,7 +427,7 @@ impl<'a, A: Arithmetic, const D: usize> Set<'a, A, D> {
     pub fn lend<const N: usize>(
         &mut self,
         fields: [usize; N],
-    ) -> (View<'_, A, D>, [&mut [A::Word]; N]) {
+    ) -> (SetView<'_, A, D>, [&mut [A::Word]; N]) {
         let mut columns: [&[A::Word]; MAX_FIELDS] = Default::default();
         let mut lent = [const { None }; N];
         for (f, (column, all)) in columns.iter_mut().zip(&mut self.columns).enumerate() {
@@ -426,7 +436,7 @@ impl<'a, A: Arithmetic, const D: usize> Set<'a, A, D> {
                 None => *column = all,
             }
         }
-        let view = View {
+        let view = SetView {
             id: self.id,
             fields: self.fields,
             columns,

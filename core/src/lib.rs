@@ -1,17 +1,18 @@
 //! The core of Loschmidt: smoothed particle hydrodynamics that can be run backwards, bit for bit.
 //!
-//! No `std` (but for a feature that takes its square root), no allocator, no `unsafe`: the same step runs on a microcontroller and on a server
-//! and leaves the same bits. Read it in layers, each standing on those before it:
+//! No `std` (but for a feature that takes its square root), no allocator, no `unsafe`: the same
+//! step runs on a microcontroller and on a server and leaves the same bits. Read it in layers, each
+//! standing on those before it:
 //!
 //! 1. [`number`]: fixed-point types of the state, the one odd rounding, doubles of a pair term.
-//!    [`values`]: numbers with names.
+//!    [`mod@values`]: numbers with names.
 //! 2. [`fields`]: what a particle consists of, declared once, on memory lent by the caller.
 //! 3. [`kernel`], [`neighbours`], [`pairs`], [`points`]: the smoothing kernel, cells, sums over
 //!    pairs as integers, which no order can change, and what happens to one particle.
-//! 4. [`executor`]: who walks particles and pairs; [`Serial`] is the reference. [`system`]: all that
-//!    a step works on.
-//! 5. [`model`]: what a scheme declares. [`shears`], [`integrator`]: kicks and drifts, and symmetric
-//!    tables of them. [`schemes`]: the schemes, a folder each.
+//! 4. [`executor`]: who walks particles and pairs; [`Serial`] is the reference. [`system`]: all
+//!    that a step works on.
+//! 5. [`model`]: what a scheme declares. [`shears`], [`integrator`]: kicks and drifts, and
+//!    symmetric tables of them. [`schemes`]: the schemes, a folder each.
 //! 6. [`observe`] (energies, momenta, entropy) and [`digest`] (equality of states): they read.
 //! 7. [`owned`]: all of it in memory of fixed size, for targets without an allocator.
 //!

@@ -9,7 +9,7 @@
 
 use crate::executor::Executor;
 use crate::fault::{Fault, FaultKind};
-use crate::fields::{Field, IMPULSE_FIELD, POSITION_FIELD, VELOCITY_FIELD, View};
+use crate::fields::{Field, IMPULSE_FIELD, POSITION_FIELD, SetView, VELOCITY_FIELD};
 use crate::integrator::{Integrator, Stage};
 use crate::neighbours::Grid;
 use crate::number::{Arithmetic, Scale};
@@ -95,7 +95,7 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
         system: &mut System<'_, A, D>,
         exec: &E,
     ) -> Result<(), Fault> {
-        system.number_walls();
+        system.prepare_walls();
         system.locate_walls(exec);
         Ok(())
     }
@@ -189,7 +189,7 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
 
     /// Number `column` of [`Model::COLUMNS`], in its unit, of the particle in this place of a
     /// system that was refreshed.
-    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64 {
+    fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
         let _ = (column, particles, place);
         f64::NAN
     }
@@ -270,7 +270,7 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
     fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault> {
         self.0.scheme().energies(system)
     }
-    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64 {
+    fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
         self.0.scheme().column(column, particles, place)
     }
 }
@@ -288,7 +288,8 @@ pub enum SetupError {
     },
     /// The kernel at r = 0 weighs more than one density term may.
     #[error(
-        "the support radius {support_radius} m is too small for the mass of a particle: m W(0) is out of range"
+        "the support radius {support_radius} m is too small for the mass of a particle: \
+         m W(0) is out of range"
     )]
     Support {
         /// h, m.

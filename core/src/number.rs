@@ -22,10 +22,10 @@
 //!
 //! In that range x + 3·2^51 lies in (2^52, 2^53), where the spacing of `f64` is one: the addition
 //! itself rounds to an integer, ties to even, and the low bits of the sum hold it. R is odd,
-//! R(-x) = -R(x): the integers nearest to -x are the negatives of those nearest to x, and a tie goes
-//! to the even one of two neighbours, whose negative is even too. All of `+ - * / sqrt` are odd in
-//! the same sense, so a pair term that is antisymmetric on paper is antisymmetric in its bits, and
-//! a drift with the reversed velocity undoes a drift.
+//! R(-x) = -R(x): the integers nearest to -x are the negatives of those nearest to x, and a tie
+//! goes to the even one of two neighbours, whose negative is even too. All of `+ - * / sqrt` are
+//! odd in the same sense, so a pair term that is antisymmetric on paper is antisymmetric in its
+//! bits, and a drift with the reversed velocity undoes a drift.
 //!
 //! The magnitude is tested *before* the conversion, and in a form that a NaN fails; a cast with
 //! `as` would have turned it into 0.

@@ -78,6 +78,8 @@ pub struct Owned<
     wall_id: Vec<u64, W>,
     memory: [A::Word; K],
     clock: Clock,
+    /// Whether the model has seen the walls since the last push.
+    walls_placed: bool,
     start: [u32; B],
     order: [u32; N],
     wall_start: [u32; B],
@@ -121,6 +123,7 @@ where
             wall_id: Vec::new(),
             memory: [A::Word::ZERO; K],
             clock: Clock::default(),
+            walls_placed: false,
             start: [0; B],
             order: [0; N],
             wall_start: [0; B],
@@ -149,6 +152,7 @@ where
         self.id
             .push(place as u64)
             .map_err(|_| PushError::Full { position })?;
+        self.walls_placed = false;
         let (_, mut system) = self.parts();
         system.particles.position_mut()[place] = x;
         system.particles.velocity_mut()[place] = v;
@@ -166,6 +170,7 @@ where
         self.wall_id
             .push(0)
             .map_err(|_| PushError::Full { position })?;
+        self.walls_placed = false;
         let (_, mut system) = self.parts();
         system.walls.position_mut()[place] = x;
         Ok(())
@@ -209,6 +214,7 @@ where
     /// # Errors
     /// As [`Model::initialise`].
     pub fn initialise<E: Executor>(&mut self, exec: &E) -> Result<(), Fault> {
+        self.walls_placed = true;
         let (model, mut system) = self.parts();
         model.initialise(&mut system, exec)
     }
@@ -218,7 +224,11 @@ where
     /// # Errors
     /// As [`Model::step`].
     pub fn advance<E: Executor>(&mut self, steps: u64, exec: &E) -> Result<(), Fault> {
+        let placed = core::mem::replace(&mut self.walls_placed, true);
         let (model, mut system) = self.parts();
+        if !placed && system.clock.initialised {
+            model.place_walls(&mut system, exec)?;
+        }
         (0..steps).try_for_each(|_| model.step(&mut system, exec))
     }
 
@@ -230,7 +240,9 @@ where
     /// The digest of the present state.
     pub fn digest(&mut self) -> crate::Digest {
         let scale = self.scale();
-        crate::digest::digest(&self.parts().1, &scale)
+        let (_, mut system) = self.parts();
+        system.prepare_walls();
+        crate::digest::digest(&system, &scale)
     }
 }
 

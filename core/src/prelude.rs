@@ -4,8 +4,8 @@ pub use crate::exact::ExactSum;
 pub use crate::executor::Executor;
 pub use crate::fault::{Fault, FaultKind};
 pub use crate::fields::{
-    Field, IMPULSE, IMPULSE_FIELD, POSITION, POSITION_FIELD, Quantum, Role, Shape, Side,
-    TimeParity, VELOCITY, VELOCITY_FIELD, View,
+    Field, IMPULSE, IMPULSE_FIELD, POSITION, POSITION_FIELD, Quantum, Rank, Role, SetView, Side,
+    TimeParity, VELOCITY, VELOCITY_FIELD,
 };
 pub use crate::integrator::Stage;
 pub use crate::model::{

@@ -2,9 +2,9 @@
 
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::{Column, Set, Side, View};
+use crate::fields::{Column, Role, Set, SetView, Side, VELOCITY};
 use crate::neighbours::{Cells, CellsView, Grid};
-use crate::number::Arithmetic;
+use crate::number::{Arithmetic, Quantity};
 use crate::pairs::{PairPass, Sources, Targets};
 
 /// Where a run stands.
@@ -135,18 +135,23 @@ impl<A: Arithmetic, const D: usize> System<'_, A, D> {
 
     /// Cells and geometry of one side, and its particles: what a diagnostic gathers from.
     #[must_use]
-    pub fn side(&self, side: Side) -> (View<'_, A, D>, CellsView<'_>, &Grid<D>) {
+    pub fn side(&self, side: Side) -> (SetView<'_, A, D>, CellsView<'_>, &Grid<D>) {
         match side {
             Side::Particles => (self.particles.view(), self.cells.view(), self.grids[0]),
             Side::Walls => (self.walls.view(), self.wall_cells.view(), self.grids[1]),
         }
     }
 
-    /// Gives the walls their ids, which count on from the last particle's place.
-    pub fn number_walls(&mut self) {
+    /// Gives the walls their ids, which count on from the last particle's place, and velocities of
+    /// zero, where they have some to be read.
+    pub fn prepare_walls(&mut self) {
         let first = self.particles.len() as u64;
         for (w, id) in self.walls.id.iter_mut().enumerate() {
             *id = first + w as u64;
+        }
+        let velocity = self.walls.fields().get(VELOCITY);
+        if velocity.is_some_and(|field| field.walls == Role::Scratch) {
+            self.walls.words_mut(VELOCITY).fill(A::Word::ZERO);
         }
     }
 
@@ -160,7 +165,7 @@ impl<A: Arithmetic, const D: usize> System<'_, A, D> {
 /// These fields of a set, as a pass reads them.
 #[must_use]
 pub fn columns<'a, A: Arithmetic, const D: usize>(
-    view: &View<'a, A, D>,
+    view: &SetView<'a, A, D>,
     fields: &[usize],
     side: Side,
 ) -> heapless::Vec<Column<'a, A::Word>, MAX_READ> {

@@ -1,21 +1,21 @@
-//! The rooms are open: a model that no file of the workspace knows by name runs out and back through
-//! everything that water runs through.
+//! The rooms are open: a model that no file of the workspace knows by name runs out and back
+//! through everything that water runs through.
 
 #[path = "../lennard_jones.rs"]
 #[allow(dead_code)]
-mod lennard_jones;
+mod gas;
 
 use loschmidt_runner::run::RunError;
 use loschmidt_runner::scene::{Scene, Source, load};
 use loschmidt_runner::{ExecutorKind, Options, Player, Run};
-use loschmidt_viewer::movie::{Movie, Stored, Style};
+use loschmidt_viewer::movie::{Movie, MovieStyle, Stored};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 fn scene(set: &[&str]) -> Scene {
-    lennard_jones::make_known();
+    gas::make_known();
     let source = Source::Text {
         name: "gas.toml".to_owned(),
-        text: lennard_jones::SCENE.to_owned(),
+        text: gas::SCENE.to_owned(),
     };
     let set: Vec<String> = set.iter().map(|&s| s.to_owned()).collect();
     load(&source, &set).expect("a scene")
@@ -88,10 +88,10 @@ fn a_run_of_it_is_interrupted_resumed_finished_and_drawn() {
         "{header}"
     );
     let stored = Stored::open(&out).expect("frames");
-    let style = Style {
+    let style = MovieStyle {
         size: (320, 180),
         pictures: 3,
-        ..Style::default()
+        ..MovieStyle::default()
     };
     let identity = stored.identity();
     let path = place.path().join("movie");
@@ -106,8 +106,8 @@ fn a_run_of_it_is_interrupted_resumed_finished_and_drawn() {
 
 #[test]
 fn a_misspelt_model_is_told_the_names_that_this_program_knows() {
-    lennard_jones::make_known();
-    let text = lennard_jones::SCENE.replace("lennard-jones", "lenard-jones");
+    gas::make_known();
+    let text = gas::SCENE.replace("lennard-jones", "lenard-jones");
     let name = "gas.toml".to_owned();
     let error = load(&Source::Text { name, text }, &[]).expect_err("no such model");
     let text = error.to_string();

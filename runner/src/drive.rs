@@ -2,8 +2,8 @@
 //!
 //! A model's step is a list of stages; what a stage adds is prepared, then applied
 //! ([`loschmidt_core::model`]). Where a step closes with the kick that the next one opens with, the
-//! positions in between are the same, and so are the integers: they are prepared once. Executors may
-//! prepare in a way of their own, and apply kicks and the drift after them in one go. The
+//! positions in between are the same, and so are the integers: they are prepared once. Executors
+//! may prepare in a way of their own, and apply kicks and the drift after them in one go. The
 //! conformance suite holds all of it to the bits of [`Model::step`], and to its faults.
 
 use loschmidt_core::integrator::Stage;

@@ -94,7 +94,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
     }
 
     /// Calls `task` with the executor's own type.
-    fn with_executor<T: Task<A, M, D>>(&mut self, task: T) -> T::Output {
+    fn with_executor<T: EngineTask<A, M, D>>(&mut self, task: T) -> T::Output {
         let (mut system, held) = self.storage.parts();
         let model = &self.model;
         match &self.executor {
@@ -132,7 +132,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
 }
 
 /// Something done with model, system and executor of known types.
-trait Task<A: Arithmetic, M: Model<A, D>, const D: usize>: Send {
+trait EngineTask<A: Arithmetic, M: Model<A, D>, const D: usize>: Send {
     type Output: Send;
     fn run<E: Drive + Sync>(
         self,
@@ -146,7 +146,7 @@ trait Task<A: Arithmetic, M: Model<A, D>, const D: usize>: Send {
 macro_rules! task {
     ($name:ident $(($field:ident: $ty:ty))?, |$model:ident, $system:ident, $held:ident, $exec:ident $(, $arg:ident)?| $body:expr) => {
         struct $name$(($ty))?;
-        impl<A: Arithmetic, M: Model<A, D>, const D: usize> Task<A, M, D> for $name {
+        impl<A: Arithmetic, M: Model<A, D>, const D: usize> EngineTask<A, M, D> for $name {
             type Output = Result<(), Fault>;
             fn run<E: Drive + Sync>(
                 self,

@@ -3,8 +3,8 @@
 //! ũ_a = (1/γ_a) Σ_b V_b u_b W_ab,  γ_a = Σ_b V_b W_ab,  V_b = m/ρ_b,
 //!
 //! over the fluid, the particle itself included, and where walls are dummies over them too, at rest
-//! and with the volume m/ρ0. The state that the frame was taken of is not touched. (The active filter
-//! is the core's model `filtered`.)
+//! and with the volume m/ρ0. The state that the frame was taken of is not touched. (The active
+//! filter is the core's model `filtered`.)
 //!
 //! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, appendix A.
 

@@ -1,9 +1,10 @@
 //! The models of this package: a line each.
 //!
-//! A line names the model, its word in scenes, the family whose keys it reads, what makes it from the
-//! parameters of a scene, and what it does not go with. The scene language ([`crate::scene::Model`])
-//! and the set-up ([`crate::setup::simulation`]) are both made of this list. A model of somebody else's
-//! package is registered when the program starts: [`crate::own::register`].
+//! A line names the model, its word in scenes, the family whose keys it reads, what makes it from
+//! the parameters of a scene, and what it does not go with. The scene language
+//! ([`crate::scene::Model`]) and the set-up ([`crate::setup::simulation`]) are both made of this
+//! list. A model of somebody else's package is registered when the program starts:
+//! [`crate::own::register`].
 
 /// Hands the list to a macro.
 macro_rules! for_each_model {

@@ -1,7 +1,7 @@
 //! Models of one's own, written outside this package.
 //!
-//! A program that has such a model registers it before it reads a scene; from then on scenes may say
-//! `model = "NAME"`, and players, runs, their resumption, movies and pictures know it.
+//! A program that has such a model registers it before it reads a scene; from then on scenes may
+//! say `model = "NAME"`, and players, runs, their resumption, movies and pictures know it.
 //! `examples/lennard_jones.rs` is one.
 
 use crate::scene::{self, InitialState, Scene};

@@ -93,7 +93,7 @@ impl Points {
     }
 
     /// The fluid's lists in parts of so many particles.
-    pub(crate) fn parts(&mut self, size: usize) -> Vec<Part<'_>> {
+    pub(crate) fn parts(&mut self, size: usize) -> Vec<PointsPart<'_>> {
         let mut axes = self.position.each_mut().map(|list| list.chunks_mut(size));
         let columns = self.columns.iter_mut();
         let mut columns: Vec<_> = columns
@@ -102,7 +102,7 @@ impl Points {
         let ids = self.id.chunks_mut(size);
         ids.zip(self.speed.chunks_mut(size))
             .enumerate()
-            .map(|(n, (id, speed))| Part {
+            .map(|(n, (id, speed))| PointsPart {
                 first: n * size,
                 id,
                 position: axes.each_mut().map(|axis| axis.next().unwrap_or_default()),
@@ -117,7 +117,7 @@ impl Points {
 }
 
 /// Some consecutive particles of the lists.
-pub(crate) struct Part<'a> {
+pub(crate) struct PointsPart<'a> {
     /// Place of the first.
     pub first: usize,
     pub id: &'a mut [u64],

@@ -1,5 +1,5 @@
-//! SplitMix64 (Steele, Lea & Flood, OOPSLA 2014): numbers that look random and are the same on every
-//! machine.
+//! SplitMix64 (Steele, Lea & Flood, OOPSLA 2014): numbers that look random and are the same on
+//! every machine.
 
 /// A generator with 64 bits of state.
 #[derive(Clone, Debug)]

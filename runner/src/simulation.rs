@@ -111,11 +111,12 @@ pub trait Simulation: Send {
     /// # Errors
     /// As a step.
     fn points(&mut self, points: &mut Points) -> Result<(), Fault>;
-    /// Gives back memory that only steps need. The next step makes it anew, at the cost of a step or two;
-    /// no bit depends on it.
+    /// Gives back memory that only steps need. The next step makes it anew, at the cost of a step
+    /// or two; no bit depends on it.
     fn release(&mut self);
-    /// What the pair sums so far were made with: an instruction set, `serial` for the plain traversal (in
-    /// the other executors, and in floating point, whose sums have an order), or both.
+    /// What the pair sums so far were made with: an instruction set, `serial` for the plain
+    /// traversal (in the other executors, and in floating point, whose sums have an order), or
+    /// both.
     fn backend(&self) -> String;
     /// The threads that take the steps, where there are others than the caller's.
     fn pool(&self) -> Option<Rayon>;

@@ -247,7 +247,8 @@ fn a_spiral_fills_a_disc_evenly_from_its_middle() {
     );
     let area = std::f64::consts::PI / 0.0025;
     assert!((state.fluid.len() as f64 - area).abs() <= 1.0);
-    // Node n lies at the radius whose disc holds n + 1/2 particles; x^2 + y^2 = r^2 whatever the angle.
+    // Node n lies at the radius whose disc holds n + 1/2 particles; x^2 + y^2 = r^2 whatever the
+    // angle.
     for (n, x) in state.fluid.iter().enumerate() {
         let r2 = (x[0] - 3.0).powi(2) + (x[1] + 1.0).powi(2);
         let expected = 0.0025 * (n as f64 + 0.5) / std::f64::consts::PI;

@@ -7,7 +7,7 @@
 //!
 //! A model of its own needs three lines in a test:
 //!
-//! ```ignore
+//! ```text
 //! let initial = conformance::disordered(&scene, 1);
 //! conformance::check(|| MyModel::new(…).unwrap(), &initial, &[1, 2, 12])
 //!     .unwrap_or_else(|difference| panic!("{difference}"));

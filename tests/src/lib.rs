@@ -1,6 +1,6 @@
 //! The claims of Loschmidt, as tests: see `tests/`. Here is what they share.
 //!
-//! - [`conformance`]: every executor against the core's plain step, for any model.
+//! - [`mod@conformance`]: every executor against the core's plain step, for any model.
 //! - [`permitted`]: every error that a test allows, in one place, each with its reason. A test that
 //!   is not listed there compares bits.
 //! - [`small`]: small systems in `heapless` vectors, the same recipe for every scheme, dimension

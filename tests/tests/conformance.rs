@@ -174,7 +174,8 @@ fn a_crowd_and_a_crowd_that_is_just_allowed() {
 
 #[test]
 fn a_channel_longer_than_a_meeting_can_name() {
-    // 30,000 columns: four particles of a strip above one another are 120,000, more than 16 bits count.
+    // 30,000 columns: four particles of a strip above one another are 120,000, more than 16 bits
+    // count.
     let scene = scene_of(
         "particle_spacing = 0.1\nend = 1.0\ntime_step = 1e-5\nfluid.sound_speed = 10\n\
          wall_model = \"none\"\ndensity_correction = \"none\"\n[[region]]\nkind = \"fluid\"\n\

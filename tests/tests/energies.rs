@@ -9,7 +9,8 @@ use loschmidt_tests::small::{
     Recipe, SPACING, central, conservative, displace, downwards, measure, velocity, water,
 };
 
-/// One whole kick and nothing else: what it adds to a resting particle is dt times its acceleration.
+/// One whole kick and nothing else: what it adds to a resting particle is dt times its
+/// acceleration.
 static KICK: Integrator = Integrator {
     name: "kick",
     order: 1,

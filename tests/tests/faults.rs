@@ -64,8 +64,8 @@ fn of_kicks_that_two_steps_add_in_one_go_the_step_is_named() {
         central: None,
     };
     let parameters = Parameters { gravity, ..units() };
-    // Half a metre per second and kick, two kicks a step: 2048 m/s at kick number n + 1 of particle 1,
-    // and one kick later of particle 0.
+    // Half a metre per second and kick, two kicks a step: 2048 m/s at kick number n + 1 of particle
+    // 1, and one kick later of particle 0.
     for n in 0..6u32 {
         let speed = 2047.75 - 0.5 * f64::from(n);
         let recipe = dust(parameters, &[[speed - 0.5, 0.0], [speed, 0.0]]);

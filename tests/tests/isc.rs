@@ -1,7 +1,7 @@
 //! The initial state correction: every first density is the reference density, without constants.
 
 use loschmidt_core::kernel::WendlandC2;
-use loschmidt_runner::isc::{Convergence, Settings, correct};
+use loschmidt_runner::isc::{Convergence, CorrectionSettings, correct};
 use loschmidt_runner::scene::{DensityCorrection, InitialState, Scene};
 use loschmidt_runner::{Options, Player};
 use loschmidt_tests::permitted;
@@ -11,9 +11,9 @@ use loschmidt_tests::program::{
 
 const SPACING: f64 = 0.02;
 
-fn settings<const D: usize>() -> Settings {
+fn settings<const D: usize>() -> CorrectionSettings {
     let mass = 1000.0 * SPACING.powi(D as i32);
-    Settings::new(SPACING, 3.0 * SPACING, mass, 1000.0)
+    CorrectionSettings::new(SPACING, 3.0 * SPACING, mass, 1000.0)
 }
 
 fn square(side: usize) -> Vec<[f64; 2]> {
@@ -85,7 +85,7 @@ fn no_number_of_threads_changes_a_bit_of_it() {
 /// The same bits on every machine, and another seed gives others.
 #[test]
 fn its_bits_are_those_written_here() {
-    let digest = |settings: &Settings| {
+    let digest = |settings: &CorrectionSettings| {
         let mut fluid = square(20);
         correct(&mut fluid, settings, |_, _| {}).expect("it converges");
         let words = fluid.iter().flatten().map(|x| x.to_bits());
@@ -94,7 +94,7 @@ fn its_bits_are_those_written_here() {
         })
     };
     assert_eq!(digest(&settings::<2>()), 16_518_165_426_695_587_424);
-    let other = Settings {
+    let other = CorrectionSettings {
         seed: 1,
         ..settings::<2>()
     };

@@ -1,7 +1,7 @@
 //! Runs whose numbers end: typed, with particle and step, and with the last good state.
 
 use loschmidt_core::{Fault, FaultKind};
-use loschmidt_runner::output::{RunDirectory, Snapshot, Status};
+use loschmidt_runner::output::{RunDirectory, RunStatus, Snapshot};
 use loschmidt_runner::scene::Scene;
 use loschmidt_runner::{Options, Run, RunError};
 use loschmidt_tests::program::{every_way, player, run, scene, scene_of, serial, threads, try_run};
@@ -44,7 +44,8 @@ fn fault_of(result: Result<loschmidt_runner::Outcome, RunError>) -> (Fault, f64,
     }
 }
 
-/// Lets a scene run into its fault in a directory; what it leaves must be the state one step before.
+/// Lets a scene run into its fault in a directory; what it leaves must be the state one step
+/// before.
 fn assert_leaves_the_state_one_step_before(scene: &Scene, options: Options, out: &Path) -> Fault {
     let mut run = Run::start(scene.clone(), options, Some((out, false))).expect("a start");
     let plan = *run.plan();
@@ -70,7 +71,7 @@ fn assert_leaves_the_state_one_step_before(scene: &Scene, options: Options, out:
     assert_eq!(there.advance(1), Err(fault));
 
     let manifest = RunDirectory::read_manifest(out).expect("a manifest");
-    assert_eq!(manifest.status, Status::Failed);
+    assert_eq!(manifest.status, RunStatus::Failed);
     assert_eq!(manifest.failure, Some(fault.to_string()));
     assert_eq!(manifest.steps, fault.step - 1);
     assert_eq!(manifest.digest.last, snapshot.digest().to_string());
@@ -134,7 +135,8 @@ fn the_standard_scheme_breaks_down_where_the_symplectic_one_goes_on() {
         last.total, rows[0].total
     );
     assert!(time < 1.0);
-    // The symplectic scheme at this spacing goes to 1 s and back in run_dam_break.rs; here at twice.
+    // The symplectic scheme at this spacing goes to 1 s and back in run_dam_break.rs; here at
+    // twice.
     let set = [
         "particle_spacing=0.04",
         "turnaround=",

@@ -3,7 +3,7 @@
 //! leaves the words of the plain traversal, and its faults.
 
 use loschmidt_core::fields::{
-    Column, Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Role, Set, Shape, Side, TimeParity,
+    Column, Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Rank, Role, Set, Side, TimeParity,
     VELOCITY, VELOCITY_FIELD, state_fields, words_each,
 };
 use loschmidt_core::kernel::WendlandC2;
@@ -24,22 +24,22 @@ const TEMPERATURE: usize = 4;
 const PRESSURE: usize = 5;
 const DISTORTION: usize = 6;
 
-const fn even(name: &'static str, shape: Shape, quantum: Quantum) -> Field {
+const fn even(name: &'static str, shape: Rank, quantum: Quantum) -> Field {
     Field::state(name, shape, quantum, TimeParity::Even).on_walls(Role::State)
 }
 
 const fn computed(name: &'static str) -> Field {
-    Field::scratch(name, Shape::Scalar, Quantum::Real).on_walls(Role::Scratch)
+    Field::scratch(name, Rank::Scalar, Quantum::Real).on_walls(Role::Scratch)
 }
 
 static FIELDS: [Field; 7] = [
     POSITION_FIELD,
     VELOCITY_FIELD.on_walls(Role::State),
     IMPULSE_FIELD,
-    even("density", Shape::Scalar, Quantum::Density),
+    even("density", Rank::Scalar, Quantum::Density),
     computed("temperature"),
     computed("pressure"),
-    even("distortion", Shape::Matrix, Quantum::Speed),
+    even("distortion", Rank::Matrix, Quantum::Speed),
 ];
 
 /// h in quanta.

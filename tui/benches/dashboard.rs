@@ -144,7 +144,8 @@ mod unix {
             keys.write_all(b"]").expect("a key");
             std::thread::sleep(Duration::from_millis(20));
         }
-        // From here on it is as fast as it goes; steps are counted between two states that are kept.
+        // From here on it is as fast as it goes; steps are counted between two states that are
+        // kept.
         let run = place.path().join("runs/dam-break-1");
         keys.write_all(b"s").expect("a key");
         while !run.join("manifest.json").exists() {

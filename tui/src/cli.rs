@@ -273,7 +273,8 @@ pub struct MovieArguments {
     /// Colours of everything else
     #[arg(long, default_value = "dark")]
     pub theme: ThemeName,
-    /// A picture (PNG, JPEG, WebP, …) laid over the initial state: every particle takes its colour from it
+    /// A picture (PNG, JPEG, WebP, …) laid over the initial state: every particle takes its colour
+    /// from it
     #[arg(long, value_name = "PICTURE", conflicts_with_all = ["color", "colormap"])]
     pub tint: Option<PathBuf>,
     /// Show the same scene beside it in another arithmetic

@@ -166,7 +166,7 @@ impl Pictures {
         }
     }
 
-    pub fn show(&mut self, progress: &movie::Progress) {
+    pub fn show(&mut self, progress: &movie::MovieProgress) {
         if self.quiet {
             return;
         }

@@ -5,7 +5,7 @@ use loschmidt_runner::scene::{Scene, load, resolve};
 use loschmidt_runner::{ArithmeticKind, Frame, Options, Plan, Player};
 use loschmidt_viewer::draw::PictureLayout;
 use loschmidt_viewer::movie::{
-    Ending, Movie, MovieError, Schedule, Stored, Style, gif, picture_name,
+    Ending, Movie, MovieError, MovieStyle, Schedule, Stored, gif, picture_name,
 };
 use loschmidt_viewer::{Home, Look, Picture, Raster, Rect, Rgb, picture};
 use std::fs::{self, File};
@@ -35,8 +35,8 @@ fn player(scene: &Scene, arithmetic: ArithmeticKind) -> Player {
     Player::new(scene.clone(), initial, options).expect("a player")
 }
 
-fn style(pictures: usize) -> Style {
-    Style {
+fn style(pictures: usize) -> MovieStyle {
+    MovieStyle {
         size: SIZE,
         fps: 7,
         pictures,
@@ -45,7 +45,7 @@ fn style(pictures: usize) -> Style {
     }
 }
 
-fn create(path: &Path, force: bool, style: Style) -> Result<Movie, MovieError> {
+fn create(path: &Path, force: bool, style: MovieStyle) -> Result<Movie, MovieError> {
     Movie::create(path, force, style, "dam-break", "a run")
 }
 
@@ -101,7 +101,7 @@ fn motley() -> Picture {
 fn fixed_point_brings_the_picture_home_and_floating_point_does_not() {
     let place = TempDir::new().expect("a directory");
     let scene = scene(&["particle_spacing=0.05"]);
-    let style = Style {
+    let style = MovieStyle {
         tint: Some(motley()),
         ..style(5)
     };

@@ -175,8 +175,8 @@ fn a_picture_drawn_over_another_one_is_the_same() {
         caption: "a caption".to_owned(),
         ..Look::default()
     };
-    // Every one of them changes what may be left over from the one before: particles, curves, words,
-    // the way of time, the legend, the colours.
+    // Every one of them changes what may be left over from the one before: particles, curves,
+    // words, the way of time, the legend, the colours.
     let back = Points {
         way_back: true,
         ..points.clone()

@@ -3,8 +3,8 @@
 //! Near a lattice the distances of neighbours repeat, and the processor predicts which of them are
 //! within reach; that flatters the plain traversal. In the *disordered* states every particle is
 //! moved by up to 0.3 spacings along each axis. All move on at a speed at which the fastest
-//! particle of the paper's dam break crosses a spacing in as many steps (40), so that the neighbours
-//! have to be found as often as there.
+//! particle of the paper's dam break crosses a spacing in as many steps (40), so that the
+//! neighbours have to be found as often as there.
 
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::{InitialState, Scene, Source, load};

@@ -1,5 +1,5 @@
-//! A second player that goes wherever the first one goes, in the other arithmetic: the same scene, the
-//! same steps, the same turns. What is done to the first by hand is not done to it.
+//! A second player that goes wherever the first one goes, in the other arithmetic: the same scene,
+//! the same steps, the same turns. What is done to the first by hand is not done to it.
 
 use super::messages::{Beside, Report};
 use super::opening::Opening;

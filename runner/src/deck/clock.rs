@@ -65,7 +65,7 @@ fn at_most_power(x: f64) -> f64 {
 
 /// Counts the steps that are due.
 #[derive(Debug)]
-pub(super) struct Clock {
+pub(super) struct DeckClock {
     /// Steps per second.
     rate: f64,
     credit: f64,
@@ -79,7 +79,7 @@ pub(super) struct Clock {
     behind: Option<Instant>,
 }
 
-impl Clock {
+impl DeckClock {
     pub fn new(rate: f64, now: Instant) -> Self {
         Self {
             rate,
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn the_steps_due_are_those_of_the_pace_whatever_the_machine_does_in_between() {
         let start = Instant::now();
-        let mut clock = Clock::new(100.0, start);
+        let mut clock = DeckClock::new(100.0, start);
         let mut taken = 0;
         // Asked every 7 ms for ten seconds.
         for n in 1..=1428 {
@@ -195,7 +195,7 @@ mod tests {
     #[test]
     fn debt_is_forgotten() {
         let start = Instant::now();
-        let mut clock = Clock::new(100.0, start);
+        let mut clock = DeckClock::new(100.0, start);
         let late = start + Duration::from_secs(60);
         assert_eq!(clock.due(late), Ok(10));
         assert!(!clock.keeps_up(late));

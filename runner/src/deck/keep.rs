@@ -1,7 +1,7 @@
 //! Leaving a state behind, to be opened again.
 
 use super::messages::Meddling;
-use crate::output::{Manifest, OutputError, RunDirectory, Snapshot, Status};
+use crate::output::{Manifest, OutputError, RunDirectory, RunStatus, Snapshot};
 use crate::player::{Arrow, Player};
 use crate::run::{Digests, Plan, Row, scene_hash};
 use std::path::{Path, PathBuf};
@@ -46,7 +46,7 @@ impl Keeper {
         let manifest = Manifest {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scene: player.scene().name.clone(),
-            status: Status::Watched,
+            status: RunStatus::Watched,
             steps: player.steps_taken(),
             steps_planned: Plan::of(player.scene()).total(),
             arithmetic: options.arithmetic.name().to_owned(),

@@ -32,8 +32,8 @@ pub enum Command {
     Flip(u64),
     /// To go on in this arithmetic.
     Switch(ArithmeticKind),
-    /// To leave the state in this directory, from which it can be opened again; with these rows as its
-    /// series. It is created, or written anew if this deck has created it.
+    /// To leave the state in this directory, from which it can be opened again; with these rows as
+    /// its series. It is created, or written anew if this deck has created it.
     Keep {
         /// Directory of a run.
         path: PathBuf,
@@ -73,7 +73,8 @@ pub enum Report {
     Kept(PathBuf),
     /// It could not be written.
     NotKept(String),
-    /// The player in the other arithmetic has something to say, before the report that it belongs to.
+    /// The player in the other arithmetic has something to say, before the report that it belongs
+    /// to.
     Beside(Beside),
 }
 
@@ -147,8 +148,8 @@ pub struct Status {
     pub arithmetic: ArithmeticKind,
     /// What was done to the state by hand, in its order.
     pub meddling: Vec<Meddling>,
-    /// Particles that are not, to the last bit, where they were on the way out; `None` on the way out
-    /// and where nothing is known of it.
+    /// Particles that are not, to the last bit, where they were on the way out; `None` on the way
+    /// out and where nothing is known of it.
     pub astray: Option<usize>,
 }
 
@@ -177,8 +178,8 @@ pub struct Moment {
     pub row: Row,
     /// Speeds.
     pub histogram: SpeedHistogram,
-    /// The direction in which this state was reached, whatever the arrow: a seek goes back with time
-    /// not turned.
+    /// The direction in which this state was reached, whatever the arrow: a seek goes back with
+    /// time not turned.
     pub travel: Arrow,
     /// Whether it is one of the states of the series, at multiples of its interval.
     pub regular: bool,

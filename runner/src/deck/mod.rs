@@ -6,12 +6,12 @@
 //!
 //! A face draws what it is told and sends what its user wants; it never waits for a step. The
 //! thread looks at its commands between pieces of steps that take some milliseconds, and hands over
-//! a new picture only when the last one has been drawn ([`Deck::ready`]), at most [`FRAMES`] times a
-//! second. Which steps are taken is up to the commands; no timing changes a bit of a state.
+//! a new picture only when the last one has been drawn ([`Deck::ready`]), at most [`FRAMES`] times
+//! a second. Which steps are taken is up to the commands; no timing changes a bit of a state.
 //!
 //! Time is integrated in either direction and never turns by itself: it turns on
-//! [`Command::Turn`], and stands still at the start. The pace is in simulated seconds per second, and
-//! does not depend on the machine as long as the machine keeps up.
+//! [`Command::Turn`], and stands still at the start. The pace is in simulated seconds per second,
+//! and does not depend on the machine as long as the machine keeps up.
 //!
 //! 1. `messages`: [`Command`], [`Report`]. 2. `opening`: what is played, a scene or an earlier run.
 //! 3. `worker`: the thread. 4. `clock`: the pace. 5. `waypoints`: who is not on the way home.
@@ -46,8 +46,8 @@ pub const FRAMES: u32 = 30;
 pub struct Wishes {
     /// Pictures a second at most.
     pub frames: u32,
-    /// Whether a second player does the same steps in the other arithmetic; only for a scene that is
-    /// played from its start.
+    /// Whether a second player does the same steps in the other arithmetic; only for a scene that
+    /// is played from its start.
     pub beside: bool,
 }
 

@@ -1,12 +1,13 @@
 //! Waypoints: who is not on the way home.
 //!
-//! Going back is integrating back, and needs no history. To *count*, while it happens, the particles
-//! that have left the way they came, the way out leaves marks: 32 bits per particle, hashed from its
-//! position and velocity along physical time, at some of the states of the series. On the way back
-//! the same states are hashed again. Two different states of a particle share a mark once in 2³².
+//! Going back is integrating back, and needs no history. To *count*, while it happens, the
+//! particles that have left the way they came, the way out leaves marks: 32 bits per particle,
+//! hashed from its position and velocity along physical time, at some of the states of the series.
+//! On the way back the same states are hashed again. Two different states of a particle share a
+//! mark once in 2³².
 //!
-//! In floating point, positions and velocities are rounded to whole quanta first, the unit of the fixed-point
-//! state that it is compared with.
+//! In floating point, positions and velocities are rounded to whole quanta first, the unit of the
+//! fixed-point state that it is compared with.
 
 use crate::player::Arrow;
 use crate::saved::{ArithmeticKind, SavedState};

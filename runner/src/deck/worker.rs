@@ -5,7 +5,7 @@ mod orders;
 
 use super::Wishes;
 use super::beside::Companion;
-use super::clock::{Clock, suggested_pace};
+use super::clock::{DeckClock, suggested_pace};
 use super::keep::Keeper;
 use super::messages::{
     Arrival, Beside, Command, Meddling, Moment, Opened, Report, Seek, Shot, Status,
@@ -86,7 +86,7 @@ struct Worker {
     tell: Tell,
     /// The face wants another picture.
     ready: Arc<AtomicBool>,
-    clock: Clock,
+    clock: DeckClock,
     pace: f64,
     playing: bool,
     seek: Option<Seek>,
@@ -127,7 +127,7 @@ impl Worker {
         let particles = player.home().id.len();
         let every = plan.row_every as i64;
         Self {
-            clock: Clock::new(pace / dt, Instant::now()),
+            clock: DeckClock::new(pace / dt, Instant::now()),
             good: (player.home().clone(), 0, Arrow::Forward),
             player,
             companion,

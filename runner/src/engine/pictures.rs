@@ -2,8 +2,8 @@
 
 use super::{AnyExecutor, on_threads};
 use crate::frame::{Frame, FrameColumn};
-use crate::points::{Part, Points, speed};
-use loschmidt_core::fields::View;
+use crate::points::{Points, PointsPart, speed};
+use loschmidt_core::fields::SetView;
 use loschmidt_core::model::Model;
 use loschmidt_core::number::Quantity;
 use loschmidt_core::{Arithmetic, Scale, System};
@@ -74,8 +74,8 @@ pub(super) fn points<A: Arithmetic, M: Model<A, D>, const D: usize>(
 /// them.
 #[inline(always)]
 fn fill<A: Arithmetic, M: Model<A, D>, const D: usize>(
-    part: Part<'_>,
-    view: &View<'_, A, D>,
+    part: PointsPart<'_>,
+    view: &SetView<'_, A, D>,
     model: &M,
     scale: &Scale,
 ) {

@@ -5,8 +5,9 @@
 //! takes some 50 µs on a virtual machine. Measured at 80,000 particles: two threads that may sleep
 //! are 1.57 times as fast as one, two that look for work until the steps are done 1.88 times. They
 //! offer the processor to others whenever they find none, pause when there is none for a while, and
-//! give up after some milliseconds. The last is more than thrift: a thread may come to its search in the middle
-//! of a part of the very work, while it waits for others, and the work cannot end before that part does.
+//! give up after some milliseconds. The last is more than thrift: a thread may come to its search
+//! in the middle of a part of the very work, while it waits for others, and the work cannot end
+//! before that part does.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
@@ -153,8 +154,8 @@ mod tests {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
         let pool = Arc::new(pool.expect("threads"));
         let (done, inbox) = channel();
-        // A simulation and one who draws, on the same threads. Where a search never gave up, they met
-        // in a circle of waiting within some thousand times.
+        // A simulation and one who draws, on the same threads. Where a search never gave up, they
+        // met in a circle of waiting within some thousand times.
         for draws in [false, true] {
             let (pool, done) = (Arc::clone(&pool), done.clone());
             std::thread::spawn(move || {

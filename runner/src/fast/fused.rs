@@ -58,7 +58,7 @@ fn inner(strips: &Range<usize>, count: usize) -> Range<usize> {
 }
 
 /// The passes of one kick, and what they read of the particles besides the strips' copies.
-struct Kick<'a, A: Arithmetic, const D: usize> {
+struct KickSums<'a, A: Arithmetic, const D: usize> {
     density: DensityPass,
     pressure: PressurePass,
     factor: PressureFactor,
@@ -70,8 +70,8 @@ struct Kick<'a, A: Arithmetic, const D: usize> {
 }
 
 impl Memory {
-    /// Densities and impulses of a kick of `duration` seconds, without those of walls; false where a
-    /// term could be out of range, and nothing that was written counts.
+    /// Densities and impulses of a kick of `duration` seconds, without those of walls; false where
+    /// a term could be out of range, and nothing that was written counts.
     ///
     /// # Errors
     /// A particle whose density is not positive or whose pull is out of range.
@@ -83,7 +83,7 @@ impl Memory {
         particles: &mut Set<'_, A, D>,
     ) -> Result<bool, Fault> {
         let (view, [density, impulse]) = particles.lend([DENSITY, IMPULSE]);
-        let kick = Kick {
+        let kick = KickSums {
             density: water.density_pass(),
             pressure: water.pressure_pass(),
             factor: water.pressure_factor(duration),
@@ -114,7 +114,7 @@ impl Memory {
     fn go<A: Arithmetic, const D: usize>(
         &mut self,
         crew: Crew,
-        kick: &Kick<'_, A, D>,
+        kick: &KickSums<'_, A, D>,
         density: &mut [A::Word],
     ) -> Found {
         let layout = &self.layout;
@@ -152,7 +152,7 @@ impl Memory {
     }
 
     /// The impulse sums that a part could not take as it went.
-    fn go_on<A: Arithmetic, const D: usize>(&mut self, crew: Crew, kick: &Kick<'_, A, D>) {
+    fn go_on<A: Arithmetic, const D: usize>(&mut self, crew: Crew, kick: &KickSums<'_, A, D>) {
         let (layout, words) = (&self.layout, &self.words);
         if layout.parts.len() > 1 {
             layout.for_parts(self.sums.iter_mut().collect(), |strips, [_, sums]| {
@@ -170,7 +170,7 @@ impl Memory {
     /// The pull of gravity and what was received, for every particle.
     fn gather<A: Arithmetic, const D: usize>(
         &self,
-        kick: &Kick<'_, A, D>,
+        kick: &KickSums<'_, A, D>,
         impulse: &mut [[A::Word; D]],
     ) -> Result<(), Fault> {
         let layout = &self.layout;
@@ -202,7 +202,7 @@ impl Memory {
 /// strip's.
 #[inline(always)]
 fn finish<A: Arithmetic, const D: usize>(
-    kick: &Kick<'_, A, D>,
+    kick: &KickSums<'_, A, D>,
     contributors: &[&Sums],
     strip: Strip,
     density: &mut [A::Word],
@@ -231,7 +231,7 @@ fn finish<A: Arithmetic, const D: usize>(
 
 /// One part goes up its strips.
 struct Going<'a, A: Arithmetic, const D: usize> {
-    kick: &'a Kick<'a, A, D>,
+    kick: &'a KickSums<'a, A, D>,
     layout: &'a Layout,
     strips: Range<usize>,
     /// Of the particles of the part.

@@ -1,10 +1,10 @@
 //! Four numbers at once.
 //!
-//! Four doubles fill a register of AVX2. AVX-512 has registers of eight, but rows of eight particles
-//! hold more that are out of reach than the wider arithmetic makes up for (measured at 28
+//! Four doubles fill a register of AVX2. AVX-512 has registers of eight, but rows of eight
+//! particles hold more that are out of reach than the wider arithmetic makes up for (measured at 28
 //! neighbours: 36 lanes a particle instead of 28, and the square root takes the same time a lane);
-//! what it adds here is the conversion to integers in one instruction, and twice the registers.
-//! The baseline is plain arrays, which the compiler turns into pairs of SSE2.
+//! what it adds here is the conversion to integers in one instruction, and twice the registers. The
+//! baseline is plain arrays, which the compiler turns into pairs of SSE2.
 
 use loschmidt_core::number::Lanes;
 use std::ops::{Add, Div, Mul, Sub};

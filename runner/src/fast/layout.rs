@@ -1,18 +1,18 @@
 //! The layout: particles in strips, sorted along the first axis, and who can meet whom.
 //!
-//! Strips run along x. Their height along the other axes is h + skin, so that a particle's neighbours
-//! lie in its own strip and in those beside it. Within a strip particles are sorted into x-cells of
-//! about h/8. The state itself is stored in this order; each strip begins a new *row* of four *slots*
-//! and its last row is filled up with particles far away, so that whole rows can be read and added
-//! to.
+//! Strips run along x. Their height along the other axes is h + skin, so that a particle's
+//! neighbours lie in its own strip and in those beside it. Within a strip particles are sorted into
+//! x-cells of about h/8. The state itself is stored in this order; each strip begins a new *row* of
+//! four *slots* and its last row is filled up with particles far away, so that whole rows can be
+//! read and added to.
 //!
 //! For each particle, `meets` lists the rows that hold a particle within h + skin: those of its own
 //! strip after its own row, and those of the strips that come after. Each pair is in one list.
 //!
 //! The layout outlives the step: it is made anew when twice the largest displacement since it was
-//! made could exceed the skin. Particles outside the box that the strips cover are kept in the outermost
-//! strips and cells: the clamping is monotone, neighbours stay neighbours. None of this can
-//! change a bit, since sums of integers do not depend on who meets whom when.
+//! made could exceed the skin. Particles outside the box that the strips cover are kept in the
+//! outermost strips and cells: the clamping is monotone, neighbours stay neighbours. None of this
+//! can change a bit, since sums of integers do not depend on who meets whom when.
 
 use super::awake::each;
 use super::backend::{Backend, Work};

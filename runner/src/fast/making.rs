@@ -30,7 +30,8 @@ impl Layout {
         let n = position.len().max(1) as f64;
         self.reach = reach;
         self.skin = SKIN * reach;
-        // A little more than the sum, so that no rounding below can put neighbours two strips apart.
+        // A little more than the sum, so that no rounding below can put neighbours two strips
+        // apart.
         let height = (reach + self.skin) * 1.000_001;
         let mut extent = [0.0f64; 3];
         let axes = extent.iter_mut().zip(&mut self.origin).take(D);
@@ -275,8 +276,8 @@ impl<const D: usize> Work for Listing<'_, D> {
     }
 }
 
-/// Puts into every place what was in the place that `order` names: ids, and every field of the state.
-/// Scratch is of no use afterwards, so it stays where it is.
+/// Puts into every place what was in the place that `order` names: ids, and every field of the
+/// state. Scratch is of no use afterwards, so it stays where it is.
 fn reorder<A: Arithmetic, const D: usize>(particles: &mut Set<'_, A, D>, order: &[u32]) {
     fn each<T: Copy + Send + Sync, const C: usize>(items: &mut [T], order: &[u32]) {
         let items = items.as_chunks_mut::<C>().0;

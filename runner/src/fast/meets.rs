@@ -9,8 +9,8 @@ pub(super) struct Meeting {
     at: u16,
 }
 
-/// Rows are counted in steps of this in dimension `d`. In the plane, a number of steps times 8 is the
-/// byte at which the coordinates of the row begin, times 4 that of one component: the processor
+/// Rows are counted in steps of this in dimension `d`. In the plane, a number of steps times 8 is
+/// the byte at which the coordinates of the row begin, times 4 that of one component: the processor
 /// multiplies by these as it reads.
 pub(super) const fn step(d: usize) -> usize {
     if d == 2 { 8 } else { 1 }
@@ -29,8 +29,8 @@ impl Meeting {
         }
     }
     /// Whether all meetings of a strip with so many particles, and so many rows up to the last that
-    /// they can meet, can be named. They can up to 16,000 particles a strip in the plane and up to 130,000 a
-    /// layer in space; the sums of larger sets are left to the plain traversal.
+    /// they can meet, can be named. They can up to 16,000 particles a strip in the plane and up to
+    /// 130,000 a layer in space; the sums of larger sets are left to the plain traversal.
     pub fn can_name<const D: usize>(particles: usize, rows: usize) -> bool {
         particles <= Self::NUMBERS && rows * step(D) <= Self::NUMBERS
     }

@@ -1,16 +1,16 @@
 //! The fast executor: the core's sums in vector instructions, each pair once.
 //!
 //! `layout` keeps the state sorted into strips, so that neighbours are contiguous, and lists of who
-//! can meet whom (`making`, `meets`); `sweep` walks the pairs with the model's own pair terms written
-//! for rows of four; `fused` does the two sums of water in one go; `walls` keeps the few particles that
-//! are near walls; [`Backend`] chooses the instructions at run time. Parts of the strips go to threads
-//! (`awake`), each with sums of its own, which are added afterwards.
+//! can meet whom (`making`, `meets`); `sweep` walks the pairs with the model's own pair terms
+//! written for rows of four; `fused` does the two sums of water in one go; `walls` keeps the few
+//! particles that are near walls; [`Backend`] chooses the instructions at run time. Parts of the
+//! strips go to threads (`awake`), each with sums of its own, which are added afterwards.
 //!
 //! A sweep does not look at single terms for their range; instead the pass bounds all of them from
-//! the largest words ([`PairPass::bound`]). Where the bound does not hold, or some particle has more
-//! candidates than an integer sum is guaranteed to hold, the sum is taken by the plain traversal of
-//! the core, which decides exactly and names the particle. The same for floating-point states, and
-//! for strips of more particles than a list can name (16,000 in the plane).
+//! the largest words ([`PairPass::bound`]). Where the bound does not hold, or some particle has
+//! more candidates than an integer sum is guaranteed to hold, the sum is taken by the plain
+//! traversal of the core, which decides exactly and names the particle. The same for floating-point
+//! states, and for strips of more particles than a list can name (16,000 in the plane).
 
 mod awake;
 mod backend;
@@ -79,8 +79,8 @@ impl Fast {
         })
     }
 
-    /// What the sums so far were made with: the instruction set, `serial` for the plain traversal, or
-    /// both where some of them were left to it.
+    /// What the sums so far were made with: the instruction set, `serial` for the plain traversal,
+    /// or both where some of them were left to it.
     pub fn backend_at_work(&self) -> String {
         let swept = self.swept.load(Ordering::Relaxed);
         let name = self.crew.backend.name();
@@ -91,8 +91,8 @@ impl Fast {
         }
     }
 
-    /// Gives back the memory that outlives a step; it is made anew when it is needed. What the scratch
-    /// of a system holds is of no use afterwards.
+    /// Gives back the memory that outlives a step; it is made anew when it is needed. What the
+    /// scratch of a system holds is of no use afterwards.
     pub fn release(&self) {
         *self.memory() = Memory::default();
     }

@@ -2,8 +2,8 @@
 //!
 //! Particle i meets those of its own row that come after it, and the rows of its list. Lanes beyond
 //! the reach vanish by themselves: the kernel is zero there. What the neighbours receive is added
-//! in place, for they are contiguous; what i receives is kept in a row of its own until the strip is
-//! done. There is no branch whose outcome depends on the particles.
+//! in place, for they are contiguous; what i receives is kept in a row of its own until the strip
+//! is done. There is no branch whose outcome depends on the particles.
 //!
 //! This is the one module with `unsafe`: rows are read and written without looking at their bounds
 //! for each pair, which took a third of the time. The bounds of a strip are compared once, in
@@ -224,11 +224,11 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
             )
         };
         let mut x_ij = [Pack::new(simd, simd.splat(0.0)); D];
-        for d in 0..D {
+        for (d, x_ij) in x_ij.iter_mut().enumerate() {
             // SAFETY: there are D rows of coordinates.
             let x_j = Pack::new(simd, simd.load(unsafe { *x_j.add(d) }));
             // SAFETY: a record has D + READ numbers.
-            x_ij[d] = unsafe { number(simd, record, d) } - x_j;
+            *x_ij = unsafe { number(simd, record, d) } - x_j;
         }
         let mut r2 = x_ij[0] * x_ij[0];
         for x in &x_ij[1..] {
@@ -303,8 +303,8 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
         self.strip.len + self.meets.len()
     }
 
-    /// The whole strip along with that of another pass, pair by pair. The arguments of the terms are
-    /// written to `fresh`; those of the other's are `known`.
+    /// The whole strip along with that of another pass, pair by pair. The arguments of the terms
+    /// are written to `fresh`; those of the other's are `known`.
     ///
     /// # Panics
     /// There are not as many as [`Leg::arguments`].

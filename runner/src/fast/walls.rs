@@ -1,8 +1,8 @@
 //! Sums over another set that stands still: walls.
 //!
 //! Few particles are near a wall. When the layout is made, those within reach + skin of a wall
-//! particle are listed, each with its wall particles; until the layout is made anew no other can come
-//! within reach.
+//! particle are listed, each with its wall particles; until the layout is made anew no other can
+//! come within reach.
 
 use super::layout::{Layout, key};
 use loschmidt_core::number::Quantity;

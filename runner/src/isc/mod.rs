@@ -32,7 +32,7 @@ mod pairs;
 mod settings;
 mod solve;
 
-pub use settings::Settings;
+pub use settings::CorrectionSettings;
 
 use crate::random::SplitMix64;
 use pairs::Pairs;
@@ -87,7 +87,7 @@ const DIVERGED: f64 = 1e3;
 /// [`NotConverged`]; the positions are then of no use.
 pub fn correct<const D: usize>(
     fluid: &mut [[f64; D]],
-    settings: &Settings,
+    settings: &CorrectionSettings,
     mut observe: impl FnMut(&[[f64; D]], &[f64]),
 ) -> Result<Convergence, NotConverged> {
     let home = fluid.to_vec();

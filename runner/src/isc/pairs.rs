@@ -1,6 +1,6 @@
 //! Neighbours of every particle, their densities and the vectors g_ab = m W'(r_ab) e_ab.
 
-use super::settings::Settings;
+use super::settings::CorrectionSettings;
 use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::neighbours::{Cells, CellsView, Grid};
 use rayon::prelude::*;
@@ -39,7 +39,7 @@ struct Encounters<const D: usize> {
 /// Kernel, mass and reach.
 struct Law<'a> {
     kernel: WendlandC2,
-    settings: &'a Settings,
+    settings: &'a CorrectionSettings,
 }
 
 impl Law<'_> {
@@ -60,7 +60,7 @@ impl Law<'_> {
 
 impl<const D: usize> Pairs<D> {
     /// Finds the pairs.
-    pub fn new(fluid: &[[f64; D]], settings: &Settings) -> Self {
+    pub fn new(fluid: &[[f64; D]], settings: &CorrectionSettings) -> Self {
         let unit = settings.support_radius / UNITS;
         let units: Vec<[f64; D]> = fluid.iter().map(|x| x.map(|x| x / unit)).collect();
         let most_buckets = 2 * fluid.len();

@@ -2,7 +2,7 @@
 
 /// What the correction needs to know. Lengths in m, densities in kg/m³ (2D: kg/m²).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct CorrectionSettings {
     /// Particle spacing.
     pub spacing: f64,
     /// h, where the kernel vanishes.
@@ -25,7 +25,7 @@ pub struct Settings {
     pub seed: u64,
 }
 
-impl Settings {
+impl CorrectionSettings {
     /// The settings of a scene: 1e-10 within 40 steps, a jitter of a tenth of a spacing.
     #[must_use]
     pub fn new(spacing: f64, support_radius: f64, mass: f64, reference_density: f64) -> Self {

@@ -87,8 +87,8 @@ pub fn free_directory(scene: &str) -> PathBuf {
         .unwrap_or_else(|| Path::new("runs").join(scene))
 }
 
-/// `--force` replaces a run, or fills a directory that holds nothing of a run's names; anything else
-/// may be somebody's work.
+/// `--force` replaces a run, or fills a directory that holds nothing of a run's names; anything
+/// else may be somebody's work.
 fn refuse_to_replace(path: &Path, force: bool) -> Result<(), OutputError> {
     let refuse = |what| {
         Err(OutputError::NotReplaced {

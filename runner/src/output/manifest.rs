@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Status {
+pub enum RunStatus {
     /// At work, or killed without a chance to say so.
     Running,
     /// Stopped by a signal; can be resumed.
@@ -28,7 +28,7 @@ pub struct Manifest {
     /// Name of the scene.
     pub scene: String,
     /// How far it has come.
-    pub status: Status,
+    pub status: RunStatus,
     /// Steps taken over both legs.
     pub steps: u64,
     /// Steps planned for both legs.

@@ -29,7 +29,7 @@ pub mod snapshot;
 pub mod vtp;
 
 pub use directory::{OutputError, RunDirectory, free_directory};
-pub use manifest::{Manifest, Status};
+pub use manifest::{Manifest, RunStatus};
 pub use snapshot::{Snapshot, SnapshotError};
 
 /// Path of the collection, relative to the directory of the run.
@@ -41,7 +41,7 @@ const PIECE: usize = 64 * 1024;
 /// What a particle is.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 #[repr(u8)]
-pub enum Kind {
+pub enum PointKind {
     /// It moves: 0 in VTK, `fluid` in CSV.
     Fluid = 0,
     /// It stands still: 1 in VTK, `wall` in CSV.

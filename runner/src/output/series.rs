@@ -19,7 +19,7 @@ enum Number {
 }
 
 /// A column: its name, its number of a row, and how a row takes it from a text.
-type Column = (
+type SeriesColumn = (
     &'static str,
     fn(&Row) -> Number,
     fn(&mut Row, &str) -> Option<()>,
@@ -53,7 +53,7 @@ macro_rules! column {
 }
 
 /// Before the energies.
-const HEAD: [Column; 5] = [
+const HEAD: [SeriesColumn; 5] = [
     column!("step", step, Whole),
     column!("position", position, Signed),
     column!("leg", leg, Whole),
@@ -62,7 +62,7 @@ const HEAD: [Column; 5] = [
 ];
 
 /// After the energies.
-const TAIL: [Column; 13] = [
+const TAIL: [SeriesColumn; 13] = [
     column!("total_J", total, Real),
     column!("momentum_x_quanta", momentum_x_quanta, Sum),
     column!("momentum_y_quanta", momentum_y_quanta, Sum),

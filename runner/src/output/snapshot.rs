@@ -404,7 +404,11 @@ impl<'a> Reader<'a> {
     fn field(&mut self, particles: usize, version: u64) -> Result<SavedField, Damage> {
         let odd = match version {
             1 => None,
-            _ => Some(self.word("parity of a field")? == 1),
+            _ => match self.word("parity of a field")? {
+                0 => Some(false),
+                1 => Some(true),
+                _ => return Err(Damage::Field("parity of a field")),
+            },
         };
         let length = self.count("name of a field")?;
         let name = self.slice(length, "name of a field")?;

@@ -46,7 +46,7 @@ use std::ops::Range;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::{Kind, PIECE};
+use super::{PIECE, PointKind};
 use crate::frame::Frame;
 
 /// An array of the file.
@@ -124,8 +124,8 @@ const POINT_DATA: [Array; 3] = [
     }),
     array("kind", "UInt8", 1, 1, |frame, places, raw| {
         let (fluid, walls) = split(frame, places);
-        raw.resize(raw.len() + fluid.len(), Kind::Fluid as u8);
-        raw.resize(raw.len() + walls.len(), Kind::Wall as u8);
+        raw.resize(raw.len() + fluid.len(), PointKind::Fluid as u8);
+        raw.resize(raw.len() + walls.len(), PointKind::Wall as u8);
     }),
     array("velocity", "Float64", 24, 3, |frame, places, raw| {
         let (fluid, walls) = split(frame, places);

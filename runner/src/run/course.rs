@@ -5,7 +5,7 @@ use super::error::RunError;
 use super::outcome::{Cost, Digests, Outcome};
 use super::plan::Plan;
 use super::row::Row;
-use crate::output::{Manifest, OutputError, RunDirectory, Snapshot, Status};
+use crate::output::{Manifest, OutputError, RunDirectory, RunStatus, Snapshot};
 use crate::player::{Arrow, Player};
 use crate::pool::Rayon;
 use crate::saved::ArithmeticKind;
@@ -81,7 +81,7 @@ impl Run {
         if let Some(directory) = &run.directory {
             directory.write_scene(&run.player.scene().to_toml())?;
         }
-        run.write_manifest(Status::Running, None, None)?;
+        run.write_manifest(RunStatus::Running, None, None)?;
         run.record(0)?;
         Ok(run)
     }
@@ -97,12 +97,12 @@ impl Run {
         let started = Instant::now();
         let manifest = RunDirectory::read_manifest(path)?;
         match manifest.status {
-            Status::Running | Status::Interrupted => {}
-            Status::Watched => return Err(RunError::Watched(path.to_owned())),
-            Status::Finished | Status::Failed => {
+            RunStatus::Running | RunStatus::Interrupted => {}
+            RunStatus::Watched => return Err(RunError::Watched(path.to_owned())),
+            RunStatus::Finished | RunStatus::Failed => {
                 return Err(RunError::Ended {
                     path: path.to_owned(),
-                    failed: manifest.status == Status::Failed,
+                    failed: manifest.status == RunStatus::Failed,
                 });
             }
         }
@@ -309,7 +309,7 @@ impl Run {
                 Some(_) => Good::Stored,
                 None => Good::Kept(Box::new(snapshot)),
             };
-            self.write_manifest(Status::Running, None, None)?;
+            self.write_manifest(RunStatus::Running, None, None)?;
         }
         Ok(())
     }
@@ -333,7 +333,7 @@ impl Run {
 
     fn write_manifest(
         &mut self,
-        status: Status,
+        status: RunStatus,
         failure: Option<String>,
         result: Option<&Outcome>,
     ) -> Result<(), RunError> {
@@ -366,7 +366,7 @@ impl Run {
     /// Leaves a snapshot of the present state; returns the error to end with.
     fn interrupt(&mut self) -> Result<RunError, RunError> {
         self.write_snapshot("latest")?;
-        self.write_manifest(Status::Interrupted, None, None)?;
+        self.write_manifest(RunStatus::Interrupted, None, None)?;
         Ok(RunError::Interrupted {
             step: self.player.steps_taken(),
             path: self.path().map(Path::to_owned),
@@ -405,7 +405,7 @@ impl Run {
             self.player.advance(1)?;
         }
         let snapshot = self.write_snapshot("latest")?;
-        self.write_manifest(Status::Failed, Some(fault.to_string()), None)?;
+        self.write_manifest(RunStatus::Failed, Some(fault.to_string()), None)?;
         Ok(RunError::Fault {
             fault,
             time: fault.step as f64 * self.player.scene().time_step(),
@@ -431,7 +431,7 @@ impl Run {
             cost,
         )
         .ok_or(RunError::NoRows)?;
-        self.write_manifest(Status::Finished, None, Some(&outcome))?;
+        self.write_manifest(RunStatus::Finished, None, Some(&outcome))?;
         Ok(outcome)
     }
 }

@@ -20,7 +20,8 @@ pub struct Row {
     pub elapsed_s: f64,
     /// Physical time.
     pub time_s: f64,
-    /// Energies by kind, J (per m of depth in 2D), in the model's order; the first is the kinetic one.
+    /// Energies by kind, J (per m of depth in 2D), in the model's order; the first is the kinetic
+    /// one.
     pub energies: Vec<(Cow<'static, str>, f64)>,
     /// Their sum, J.
     pub total: f64,

@@ -140,8 +140,8 @@ impl Scene {
     /// that they would have to be disturbed first, and are moved in short steps, which leave them
     /// in order: on the Gresho vortex disorder is noise.
     #[must_use]
-    pub fn correction(&self) -> isc::Settings {
-        let settings = isc::Settings::new(
+    pub fn correction(&self) -> isc::CorrectionSettings {
+        let settings = isc::CorrectionSettings::new(
             self.particle_spacing,
             self.support_radius(),
             self.particle_mass(),
@@ -150,7 +150,7 @@ impl Scene {
         let fluid = |region: &&Region| region.kind == RegionKind::Fluid;
         let spiral = |region: &Region| region.lattice == Some(LatticeKind::Vogel);
         if self.regions.iter().filter(fluid).all(spiral) {
-            isc::Settings {
+            isc::CorrectionSettings {
                 jitter: 0.0,
                 longest: 0.025,
                 most_steps: 200,

@@ -1,5 +1,5 @@
-//! The models that a scene can choose from: those of [`crate::model_list`], and those that a program
-//! has registered.
+//! The models that a scene can choose from: those of [`crate::model_list`], and those that a
+//! program has registered.
 //!
 //! If a model has keys of its own, declare them in a module beside [`wcsph`] with a family of their
 //! own (see [`declare`](super::declare)), and put the group or table that they make up into the

@@ -6,7 +6,7 @@
 
 use crate::section::{Figure, Section};
 use loschmidt_core::Fault;
-use loschmidt_runner::output::{OutputError, RunDirectory, Snapshot, SnapshotError, Status};
+use loschmidt_runner::output::{OutputError, RunDirectory, RunStatus, Snapshot, SnapshotError};
 use loschmidt_runner::run::Row;
 use loschmidt_runner::scene::{Scene, SceneError, Source, load};
 use loschmidt_runner::{ArithmeticKind, BuildError, Options, Player, Run, RunError, SavedState};
@@ -413,8 +413,8 @@ fn is_of(path: &Path, scene: &Scene) -> bool {
 
 fn past(path: &Path, scene: &Scene) -> Option<Past> {
     let manifest = RunDirectory::read_manifest(path).ok()?;
-    let ended = matches!(manifest.status, Status::Finished | Status::Failed);
-    let two_way = scene.turnaround.is_some() && manifest.status == Status::Finished;
+    let ended = matches!(manifest.status, RunStatus::Finished | RunStatus::Failed);
+    let two_way = scene.turnaround.is_some() && manifest.status == RunStatus::Finished;
     ended.then_some(())?;
     Some(Past {
         scene: scene.clone(),

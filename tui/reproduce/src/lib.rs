@@ -2,7 +2,8 @@
 //! (2023) 108593, with our number beside theirs and a verdict.
 //!
 //! ```text
-//! Target --Lab (runs, kept in a directory)--> Section (findings, tables, figures) --report--> Markdown, HTML
+//! Target --Lab (runs, kept in a directory)--> Section (findings, tables, figures) --report-->
+//! Markdown, HTML
 //! ```
 //!
 //! 1. [`target`]: what can be reproduced. Each is a function from a [`Lab`] to a [`Section`].

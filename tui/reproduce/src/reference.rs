@@ -1,5 +1,5 @@
-//! Published curves of the dam break's leading edge, X(T) with X = x/l, T = t (2 g/l)^(1/2), l the width
-//! of the column. The files are in `data/`; their first lines say where they are from.
+//! Published curves of the dam break's leading edge, X(T) with X = x/l, T = t (2 g/l)^(1/2), l the
+//! width of the column. The files are in `data/`; their first lines say where they are from.
 
 /// Points of a curve, T and X.
 pub type Curve = Vec<[f64; 2]>;
@@ -10,7 +10,8 @@ pub fn koshizuka_oka() -> Curve {
     parse(include_str!("../data/koshizuka-oka-1996.csv"))
 }
 
-/// The simulation in D. Violeau, Fluid Mechanics and the SPH Method, Oxford University Press (2012).
+/// The simulation in D. Violeau, Fluid Mechanics and the SPH Method, Oxford University Press
+/// (2012).
 #[must_use]
 pub fn violeau() -> Curve {
     parse(include_str!("../data/violeau-2012.csv"))

@@ -7,7 +7,9 @@ use crate::exit::{Failure, USAGE, quote, tell};
 use crate::progress::Pictures;
 use loschmidt_runner::scene::{self, Scene};
 use loschmidt_runner::{ArithmeticKind, Options, Player, RunError, setup};
-use loschmidt_viewer::movie::{Ending, Fate, Movie, MovieError, Stored, Style, free_directory};
+use loschmidt_viewer::movie::{
+    Ending, Fate, Movie, MovieError, MovieStyle, Stored, free_directory,
+};
 use loschmidt_viewer::movie::{gif, mp4};
 use loschmidt_viewer::{Look, Picture};
 use std::path::{Path, PathBuf};
@@ -125,7 +127,7 @@ fn style(
     arguments: &MovieArguments,
     tint: Option<Picture>,
     seconds: f64,
-) -> Result<Style, Failure> {
+) -> Result<MovieStyle, Failure> {
     let seconds = arguments.seconds.unwrap_or(seconds);
     let pictures = (seconds * f64::from(arguments.fps)).round() as usize;
     if !(2..=MOST_PICTURES).contains(&pictures) {
@@ -138,7 +140,7 @@ fn style(
             ),
         ));
     }
-    Ok(Style {
+    Ok(MovieStyle {
         size: arguments.size,
         fps: arguments.fps,
         pictures,
@@ -154,7 +156,7 @@ fn style(
 
 fn create(
     arguments: &MovieArguments,
-    style: Style,
+    style: MovieStyle,
     scene: &str,
     identity: &str,
 ) -> Result<Movie, Failure> {

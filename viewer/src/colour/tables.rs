@@ -45,7 +45,8 @@ pub(super) const CIVIDIS: [u32; 65] = [
     0xfee838,
 ];
 
-/// Cool to warm, diverging: K. Moreland, Diverging color maps for scientific visualization, ISVC 2009.
+/// Cool to warm, diverging: K. Moreland, Diverging color maps for scientific visualization, ISVC
+/// 2009.
 #[rustfmt::skip]
 pub(super) const COOLWARM: [u32; 65] = [
     0x3b4cc0, 0x3f53c6, 0x445acc, 0x4961d2, 0x4e68d8, 0x536edd, 0x5875e1, 0x5d7ce6,

@@ -3,14 +3,14 @@
 //! | file | holds |
 //! |---|---|
 //! | `frame-00000.png`, … | the pictures |
-//! | `movie.json` | [`Manifest`]: what they show, and whether all are there |
+//! | `movie.json` | [`MovieManifest`]: what they show, and whether all are there |
 //! | `state-0.snapshot`, `series-0.csv` (and `-1` for a second run) | where an interrupted export goes on |
 //!
-//! Every file is written beside its place and renamed, so that there is the old one or the new one, never
-//! half of one.
+//! Every file is written beside its place and renamed, so that there is the old one or the new one,
+//! never half of one.
 
 use super::error::MovieError;
-use super::{Style, Times};
+use super::{MovieStyle, Times};
 use crate::colour::Rgb;
 use crate::raster::Raster;
 use crate::{picture, png};
@@ -26,7 +26,7 @@ const LOCK: &str = ".lock";
 
 /// `movie.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Manifest {
+pub struct MovieManifest {
     /// Version of the program that drew the pictures.
     pub version: String,
     /// Name of the scene.
@@ -48,8 +48,8 @@ pub struct Manifest {
 /// A directory of pictures.
 pub struct Movie {
     path: PathBuf,
-    pub(super) style: Style,
-    manifest: Manifest,
+    pub(super) style: MovieStyle,
+    manifest: MovieManifest,
     /// Pictures that were there when it was opened.
     found: usize,
     /// Held locked for as long as the directory is written to.
@@ -83,13 +83,13 @@ impl Movie {
     pub fn create(
         path: &Path,
         force: bool,
-        style: Style,
+        style: MovieStyle,
         scene: &str,
         run: &str,
     ) -> Result<Self, MovieError> {
         let version = env!("CARGO_PKG_VERSION");
         let identity = hash(format!("{version}\n{}\n{run}", style.text()).as_bytes());
-        let mut manifest = Manifest {
+        let mut manifest = MovieManifest {
             version: version.to_owned(),
             scene: scene.to_owned(),
             identity: identity.iter().map(|byte| format!("{byte:02x}")).collect(),
@@ -149,7 +149,7 @@ impl Movie {
 
     /// What the pictures look like.
     #[must_use]
-    pub fn style(&self) -> &Style {
+    pub fn style(&self) -> &MovieStyle {
         &self.style
     }
 
@@ -194,7 +194,7 @@ impl Movie {
 }
 
 /// What is in the directory: nothing, or a movie.
-fn earlier(path: &Path, force: bool) -> Result<Option<Manifest>, MovieError> {
+fn earlier(path: &Path, force: bool) -> Result<Option<MovieManifest>, MovieError> {
     if path.is_file() {
         return Err(MovieError::Exists(path.to_owned()));
     }

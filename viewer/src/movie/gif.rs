@@ -1,10 +1,11 @@
 //! A movie as a GIF.
 //!
-//! One palette serves all pictures: the colours that cover much of them (grounds, walls, text) as they are, and
-//! the rest by a self-organising network (A. Dekker, *Kohonen neural networks for optimal colour
-//! quantization*, Network: Computation in Neural Systems 5 (1994) 351-367) over samples of all pictures. A
-//! picture stores only what has changed since the one before. A GIF counts time in hundredths of a second:
-//! delays are rounded so that their sum stays right. The last picture stays for a while.
+//! One palette serves all pictures: the colours that cover much of them (grounds, walls, text) as
+//! they are, and the rest by a self-organising network (A. Dekker, *Kohonen neural networks for
+//! optimal colour quantization*, Network: Computation in Neural Systems 5 (1994) 351-367) over
+//! samples of all pictures. A picture stores only what has changed since the one before. A GIF
+//! counts time in hundredths of a second: delays are rounded so that their sum stays right. The
+//! last picture stays for a while.
 
 use super::directory::{Movie, read_picture, replace};
 use super::error::MovieError;

@@ -1,8 +1,8 @@
 //! The movie of a reversal: numbered pictures, evenly paced out and back.
 //!
-//! Of n pictures the i-th (0, …, n - 1) shows the run after round(i S/(n - 1)) of its S steps, rounded
-//! in the first half and mirrored in the second, so that the way back shows the very places in time
-//! that the way out showed: home first and home last.
+//! Of n pictures the i-th (0, …, n - 1) shows the run after round(i S/(n - 1)) of its S steps,
+//! rounded in the first half and mirrored in the second, so that the way back shows the very places
+//! in time that the way out showed: home first and home last.
 //!
 //! [`Movie::create`] opens a directory of pictures, new or one that was interrupted;
 //! [`Movie::simulate`] or [`Movie::render`] fill it; [`gif::write`] and [`mp4::write`] make
@@ -16,7 +16,7 @@ mod schedule;
 mod simulate;
 mod stored;
 
-pub use directory::{Manifest, Movie, free_directory, picture_name};
+pub use directory::{Movie, MovieManifest, free_directory, picture_name};
 pub use error::MovieError;
 pub use schedule::Schedule;
 pub use simulate::{Ending, Fate};
@@ -30,7 +30,7 @@ use std::time::Duration;
 
 /// What the pictures are to look like.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Style {
+pub struct MovieStyle {
     /// Width and height, pixels.
     pub size: (usize, usize),
     /// Pictures per second of the movie.
@@ -43,7 +43,7 @@ pub struct Style {
     pub tint: Option<Picture>,
 }
 
-impl Default for Style {
+impl Default for MovieStyle {
     /// 300 pictures of 1280 by 720 pixels, ten seconds long.
     fn default() -> Self {
         Self {
@@ -56,7 +56,7 @@ impl Default for Style {
     }
 }
 
-impl Style {
+impl MovieStyle {
     /// What the pixels depend on, besides the run.
     fn text(&self) -> String {
         let look = Look {
@@ -91,7 +91,7 @@ impl Style {
 
 /// How far an export has come; an observer is told after every picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
+pub struct MovieProgress {
     /// Pictures that are there.
     pub done: usize,
     /// Pictures of the whole movie.

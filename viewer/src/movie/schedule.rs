@@ -41,8 +41,8 @@ impl Schedule {
         }
     }
 
-    /// How far the arrow of time has turned in a picture, 0 to 1: it takes 0.7 s of the movie around
-    /// the turnaround. `None` where time is not turned.
+    /// How far the arrow of time has turned in a picture, 0 to 1: it takes 0.7 s of the movie
+    /// around the turnaround. `None` where time is not turned.
     #[must_use]
     pub fn turn(&self, picture: usize, fps: u32) -> Option<f64> {
         const SECONDS: f64 = 0.7;

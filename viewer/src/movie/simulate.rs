@@ -5,7 +5,7 @@
 
 use super::directory::{Movie, replace};
 use super::error::MovieError;
-use super::{Progress, Schedule};
+use super::{MovieProgress, Schedule};
 use crate::draw::{Look, Pane, draw};
 use crate::history::History;
 use crate::home::Home;
@@ -58,16 +58,16 @@ struct Export<'a> {
 }
 
 impl Movie {
-    /// Simulates the runs of these players, all of one scene and at home, and draws the pictures that
-    /// are not there yet. `observe` is told after every picture; when `stop` becomes true, the state is
-    /// kept and [`MovieError::Interrupted`] returned.
+    /// Simulates the runs of these players, all of one scene and at home, and draws the pictures
+    /// that are not there yet. `observe` is told after every picture; when `stop` becomes true, the
+    /// state is kept and [`MovieError::Interrupted`] returned.
     ///
     /// # Errors
     /// [`MovieError`].
     pub fn simulate(
         &mut self,
         players: Vec<Player>,
-        mut observe: impl FnMut(&Progress),
+        mut observe: impl FnMut(&MovieProgress),
         stop: &AtomicBool,
     ) -> Result<Ending, MovieError> {
         let mut export = Export::new(self, players, stop)?;
@@ -139,8 +139,8 @@ impl<'a> Export<'a> {
         })
     }
 
-    fn progress(&self, done: usize) -> Progress {
-        Progress {
+    fn progress(&self, done: usize) -> MovieProgress {
+        MovieProgress {
             done,
             total: self.schedule.pictures,
             step: self.strands[0].player.steps_taken(),
@@ -280,9 +280,9 @@ impl<'a> Export<'a> {
         Ok(())
     }
 
-    /// Takes the runs to where an earlier export kept them, and returns the first picture that is still to
-    /// be passed. Without a state that belongs there, the runs begin at home again; pictures that are
-    /// there are not drawn again.
+    /// Takes the runs to where an earlier export kept them, and returns the first picture that is
+    /// still to be passed. Without a state that belongs there, the runs begin at home again;
+    /// pictures that are there are not drawn again.
     fn resume(&mut self, movie: &Movie) -> Result<usize, MovieError> {
         let mut loaded = Vec::new();
         for n in 0..self.strands.len() {

@@ -3,12 +3,12 @@
 use super::directory::Movie;
 use super::error::MovieError;
 use super::simulate::with_commas;
-use super::{Progress, Schedule, Style};
+use super::{MovieProgress, MovieStyle, Schedule};
 use crate::draw::{Look, Pane, draw};
 use crate::history::History;
 use crate::home::Home;
 use loschmidt_runner::output::particles_csv;
-use loschmidt_runner::output::{Manifest, OutputError, RunDirectory, Status, frame_path};
+use loschmidt_runner::output::{Manifest, OutputError, RunDirectory, RunStatus, frame_path};
 use loschmidt_runner::scene::{Scene, Source, load};
 use loschmidt_runner::setup;
 use loschmidt_runner::{Frame, Plan, Points, RunError};
@@ -41,10 +41,10 @@ impl Stored {
     /// Not a run, or one that has not finished or stored no frames.
     pub fn open(path: &Path) -> Result<Self, MovieError> {
         let manifest = RunDirectory::read_manifest(path).map_err(RunError::from)?;
-        if manifest.status == Status::Watched {
+        if manifest.status == RunStatus::Watched {
             return Err(MovieError::Watched(path.to_owned()));
         }
-        if manifest.status != Status::Finished {
+        if manifest.status != RunStatus::Finished {
             return Err(MovieError::Unfinished(path.to_owned()));
         }
         let source = Source::Path(RunDirectory::scene_path(path));
@@ -82,7 +82,7 @@ impl Stored {
     ///
     /// # Errors
     /// There are too few.
-    pub fn suffices(&self, style: &Style) -> Result<(), MovieError> {
+    pub fn suffices(&self, style: &MovieStyle) -> Result<(), MovieError> {
         if style.pictures > self.frames() {
             return Err(MovieError::FewFrames {
                 path: self.path.clone(),
@@ -148,7 +148,7 @@ impl Movie {
     pub fn render(
         &mut self,
         run: &Stored,
-        mut observe: impl FnMut(&Progress),
+        mut observe: impl FnMut(&MovieProgress),
         stop: &AtomicBool,
     ) -> Result<(), MovieError> {
         let total = self.style.pictures;
@@ -165,7 +165,7 @@ impl Movie {
             let index = run.nearest(schedule.step(n));
             let points = Points::from(&run.frame(index)?);
             self.times.reading += began.elapsed();
-            observe(&Progress {
+            observe(&MovieProgress {
                 done: n,
                 total,
                 step: run.steps[index],

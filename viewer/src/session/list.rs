@@ -3,7 +3,7 @@
 use super::request::{Answer, Request};
 use crate::keys::Key;
 use loschmidt_runner::output::RunDirectory;
-use loschmidt_runner::output::Status;
+use loschmidt_runner::output::RunStatus;
 use loschmidt_runner::scene::catalogue;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -95,11 +95,11 @@ pub fn choices() -> Vec<Choice> {
             continue;
         };
         let how = match manifest.status {
-            Status::Running => "run, not finished",
-            Status::Interrupted => "run, interrupted",
-            Status::Finished => "run, finished",
-            Status::Failed => "run whose numbers ended",
-            Status::Watched => "left by a watcher",
+            RunStatus::Running => "run, not finished",
+            RunStatus::Interrupted => "run, interrupted",
+            RunStatus::Finished => "run, finished",
+            RunStatus::Failed => "run whose numbers ended",
+            RunStatus::Watched => "left by a watcher",
         };
         choices.push(Choice {
             name: path.display().to_string(),

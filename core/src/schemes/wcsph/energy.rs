@@ -10,7 +10,7 @@ use super::fields::DENSITY;
 use super::water::Water;
 use crate::exact::ExactSum;
 use crate::fault::{Fault, FaultKind};
-use crate::fields::{Side, View};
+use crate::fields::{SetView, Side};
 use crate::model::{MAX_ENERGIES, Measure};
 use crate::number::{Arithmetic, Quantity};
 use crate::observe::sum_over_pairs;
@@ -35,7 +35,7 @@ pub(super) const COLUMNS: &[Measure] = &[
 pub(super) fn column<A: Arithmetic, const D: usize>(
     water: &Water<A, D>,
     column: usize,
-    particles: &View<'_, A, D>,
+    particles: &SetView<'_, A, D>,
     place: usize,
 ) -> f64 {
     let p = water.parameters();
@@ -65,7 +65,7 @@ pub(super) fn energies<A: Arithmetic, const D: usize>(
 /// Σ m ε(ρ).
 fn compression<A: Arithmetic, const D: usize>(
     water: &Water<A, D>,
-    particles: &View<'_, A, D>,
+    particles: &SetView<'_, A, D>,
 ) -> Result<f64, Fault> {
     let p = water.parameters();
     let mut sum = ExactSum::default();

@@ -1,7 +1,7 @@
 //! What a particle of water consists of.
 
 use crate::fields::{
-    Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Role, Shape, TimeParity, VELOCITY_FIELD,
+    Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Rank, Role, TimeParity, VELOCITY_FIELD,
 };
 
 /// C_a of eq. (5), constant; in the standard scheme the density itself, advanced in time.
@@ -16,7 +16,7 @@ pub const FIXED_DENSITY: usize = 6;
 /// The fields of water whose third one has this name.
 pub(super) const fn fields(density_field: &'static str) -> [Field; 7] {
     use Quantum::{Density, Real};
-    use Shape::Scalar;
+    use Rank::Scalar;
     [
         POSITION_FIELD,
         // Walls stand still: the zeros are there to be read.

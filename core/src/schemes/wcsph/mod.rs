@@ -1,9 +1,9 @@
 //! Weakly compressible SPH (model A).
 //!
-//! [`Water`] holds what the schemes share: kernel, state equation, gravity, walls. [`Symplectic`] is
-//! the reversible scheme of Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593; [`Standard`]
-//! is the usual one that it is compared with; [`Filtered`] is the first with its noise filtered
-//! out, which no reversal brings back.
+//! [`Water`] holds what the schemes share: kernel, state equation, gravity, walls. [`Symplectic`]
+//! is the reversible scheme of Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593;
+//! [`Standard`] is the usual one that it is compared with; [`Filtered`] is the first with its noise
+//! filtered out, which no reversal brings back.
 
 mod energy;
 mod fields;

@@ -89,8 +89,8 @@ pub struct Parameters<const D: usize> {
     pub wall: Wall,
     /// The repulsion of particles that are very near to each other.
     pub anti_clump: Option<AntiClump>,
-    /// M: steps between two filterings of [`Filtered`](super::Filtered), 0 for none; other models do
-    /// not look at it.
+    /// M: steps between two filterings of [`Filtered`](super::Filtered), 0 for none; other models
+    /// do not look at it.
     pub filter_every: u64,
     /// Row of the integrator table.
     pub integrator: &'static Integrator,

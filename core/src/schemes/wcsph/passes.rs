@@ -168,8 +168,8 @@ impl<const D: usize> PairPass<D> for ContinuityPass {
     fn term<L: Lanes>(&self, x_ij: &[L; D], q: L, i: &Moving<L, D>, j: &Moving<L, D>) -> L {
         // Velocities stay below 2^51 quanta: they and their differences are exact.
         let mut dot = (i.velocity[0] - j.velocity[0]) * x_ij[0];
-        for d in 1..D {
-            dot = dot + (i.velocity[d] - j.velocity[d]) * x_ij[d];
+        for (d, x) in x_ij.iter().enumerate().skip(1) {
+            dot = dot + (i.velocity[d] - j.velocity[d]) * *x;
         }
         (dot * self.reach.kernel.derivative_over_r_at(q)) * q.splat(self.factor)
     }
@@ -265,8 +265,8 @@ impl<const D: usize> PairPass<D> for FilterPass {
     #[inline(always)]
     fn term<L: Lanes>(&self, _: &[L; D], q: L, i: &Moving<L, D>, j: &Moving<L, D>) -> [L; D] {
         let mut difference = j.velocity;
-        for d in 0..D {
-            difference[d] = j.velocity[d] - i.velocity[d];
+        for (difference, i) in difference.iter_mut().zip(&i.velocity) {
+            *difference = *difference - *i;
         }
         scaled(
             &difference,

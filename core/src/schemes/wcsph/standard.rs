@@ -19,7 +19,7 @@ use super::updates::Evolved;
 use super::water::Water;
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::{Field, Side, VELOCITY, View};
+use crate::fields::{Field, SetView, Side, VELOCITY};
 use crate::integrator::Stage;
 use crate::model::{MAX_ENERGIES, Measure, Model, Reversibility, Settings, SetupError};
 use crate::number::Arithmetic;
@@ -137,7 +137,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
         energy::energies(&self.water, system)
     }
 
-    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64 {
+    fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
         energy::column(&self.water, column, particles, place)
     }
 }

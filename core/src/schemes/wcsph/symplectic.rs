@@ -12,11 +12,11 @@
 use super::energy;
 use super::fields::{CONSTANT, DENSITY, fields};
 use super::parameters::Parameters;
-use super::updates::{Corrected, Fixed};
+use super::updates::{AddConstant, FixedPart};
 use super::water::Water;
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::{Field, Side, View};
+use crate::fields::{Field, SetView, Side};
 use crate::integrator::Stage;
 use crate::model::{MAX_ENERGIES, Measure, Model, Settings, SetupError};
 use crate::number::Arithmetic;
@@ -47,7 +47,7 @@ impl<A: Arithmetic, const D: usize> Symplectic<A, D> {
     fn densities<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
         self.water.locate(system, exec);
         self.water.bare_densities(system, exec)?;
-        exec.points(&Corrected, &mut system.particles)?;
+        exec.points(&AddConstant, &mut system.particles)?;
         self.water.dummy_densities(system, exec)
     }
 }
@@ -67,7 +67,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         system: &mut System<'_, A, D>,
         exec: &E,
     ) -> Result<(), Fault> {
-        system.number_walls();
+        system.prepare_walls();
         system.locate_walls(exec);
         if !self.water.has_dummies(system) {
             return Ok(());
@@ -75,7 +75,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         exec.points(&self.water.own(), &mut system.walls)?;
         let of_walls = Sum::to_walls(Side::Walls, &[], DENSITY);
         system.sum(exec, &self.water.density_pass(), of_walls)?;
-        exec.points(&Fixed, &mut system.walls)
+        exec.points(&FixedPart, &mut system.walls)
     }
 
     /// C_a ← ρ0 - Σ m W.
@@ -119,7 +119,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         energy::energies(&self.water, system)
     }
 
-    fn column(&self, column: usize, particles: &View<'_, A, D>, place: usize) -> f64 {
+    fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
         energy::column(&self.water, column, particles, place)
     }
 }

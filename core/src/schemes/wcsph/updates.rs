@@ -29,9 +29,9 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for OwnDensity<A::Word> {
 
 /// ρ ← ρ + C_a.
 #[derive(Clone, Copy, Debug)]
-pub struct Corrected;
+pub struct AddConstant;
 
-impl<A: Arithmetic, const D: usize> PointPass<A, D> for Corrected {
+impl<A: Arithmetic, const D: usize> PointPass<A, D> for AddConstant {
     type Read<T: Copy> = T;
     type Write<T: Copy> = T;
     const READ: &'static [usize] = &[CONSTANT];
@@ -67,9 +67,9 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Constants<A::Word> {
 
 /// One density field becomes another, plus C_a or not.
 #[derive(Clone, Copy, Debug)]
-pub struct Fixed;
+pub struct FixedPart;
 
-impl<A: Arithmetic, const D: usize> PointPass<A, D> for Fixed {
+impl<A: Arithmetic, const D: usize> PointPass<A, D> for FixedPart {
     type Read<T: Copy> = [T; 2];
     type Write<T: Copy> = T;
     const READ: &'static [usize] = &[DENSITY, CONSTANT];

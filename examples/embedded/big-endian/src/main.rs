@@ -10,9 +10,9 @@ use core::arch::{asm, global_asm};
 use core::fmt::{self, Write};
 use core::panic::PanicInfo;
 
-// SAFETY: Linux enters with the stack pointer (r15) at argc. A caller owes the function it calls 160
-// bytes above the stack pointer, where the latter saves registers, and a zero to end the chain of
-// frames.
+// SAFETY: Linux enters with the stack pointer (r15) at argc. A caller owes the function it calls
+// 160 bytes above the stack pointer, where the latter saves registers, and a zero to end the chain
+// of frames.
 global_asm!(
     ".globl _start",
     "_start:",

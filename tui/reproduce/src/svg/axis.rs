@@ -21,7 +21,8 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis from pixel `from` to pixel `to`, over a range or over these values and a little more.
+    /// An axis from pixel `from` to pixel `to`, over a range or over these values and a little
+    /// more.
     pub fn new(
         values: impl Iterator<Item = f64>,
         range: Option<[f64; 2]>,
@@ -61,7 +62,8 @@ impl Axis {
             .then_some(self.from + t * (self.to - self.from))
     }
 
-    /// The power of ten that the labels are multiples of: 0 where they are short enough as they are.
+    /// The power of ten that the labels are multiples of: 0 where they are short enough as they
+    /// are.
     pub fn exponent(&self) -> i32 {
         let largest = self.low.abs().max(self.high.abs());
         if self.log || largest == 0.0 || (0.02..1e5).contains(&largest) {

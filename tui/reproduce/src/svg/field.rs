@@ -32,8 +32,8 @@ const VIRIDIS: [&str; 16] = [
     "#1f988b", "#22a884", "#35b779", "#54c568", "#7ad151", "#a5db36", "#d2e21b", "#fde725",
 ];
 
-/// Particles smaller than that, in pixels, are thinned out to one for each square of this edge: a picture
-/// has no more pixels.
+/// Particles smaller than that, in pixels, are thinned out to one for each square of this edge: a
+/// picture has no more pixels.
 const FINEST: f64 = 0.9;
 
 /// Left of a picture, above it and below it: room for its ticks and its title, pixels.

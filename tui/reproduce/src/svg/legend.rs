@@ -12,7 +12,7 @@ const INDENT: f64 = 30.0;
 const PAD: f64 = 7.0;
 
 /// Where the legend stands.
-pub(super) enum Place {
+pub(super) enum LegendPlace {
     /// There is none.
     Nowhere,
     /// With its upper left corner here.
@@ -23,7 +23,7 @@ pub(super) enum Place {
 
 pub(super) struct Legend<'a> {
     named: Vec<&'a Series>,
-    pub place: Place,
+    pub place: LegendPlace,
 }
 
 impl<'a> Legend<'a> {
@@ -32,7 +32,7 @@ impl<'a> Legend<'a> {
         let named: Vec<&Series> = series.iter().filter(|s| !s.label.is_empty()).collect();
         let mut legend = Self {
             named,
-            place: Place::Nowhere,
+            place: LegendPlace::Nowhere,
         };
         if legend.named.is_empty() {
             return legend;
@@ -58,10 +58,10 @@ impl<'a> Legend<'a> {
             far >= near && low >= high && !covered.iter().any(inside)
         };
         legend.place = match corners.into_iter().find(is_free) {
-            Some(corner) => Place::Inside(corner),
+            Some(corner) => LegendPlace::Inside(corner),
             None => {
                 let columns = (((right - left) / (w + PAD)) as usize).clamp(1, legend.named.len());
-                Place::Below(legend.named.len().div_ceil(columns))
+                LegendPlace::Below(legend.named.len().div_ceil(columns))
             }
         };
         legend
@@ -77,7 +77,7 @@ impl<'a> Legend<'a> {
     /// Pixels it takes below the chart.
     pub fn height_below(&self) -> f64 {
         match self.place {
-            Place::Below(rows) => ROW * rows as f64 + PAD,
+            LegendPlace::Below(rows) => ROW * rows as f64 + PAD,
             _ => 0.0,
         }
     }
@@ -86,15 +86,15 @@ impl<'a> Legend<'a> {
     pub fn draw(&self, out: &mut String, below: [f64; 2]) {
         let [w, h] = self.size();
         let (corner, rows) = match self.place {
-            Place::Nowhere => return,
-            Place::Inside([x, y]) => {
+            LegendPlace::Nowhere => return,
+            LegendPlace::Inside([x, y]) => {
                 let _ = writeln!(
                     out,
                     "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"white\" fill-opacity=\"0.9\" stroke=\"#bbb\"/>"
                 );
                 ([x, y], self.named.len())
             }
-            Place::Below(rows) => (below, rows),
+            LegendPlace::Below(rows) => (below, rows),
         };
         for (k, series) in self.named.iter().enumerate() {
             let x = corner[0] + PAD + (k / rows) as f64 * w;

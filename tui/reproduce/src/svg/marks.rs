@@ -32,7 +32,7 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
     /// How they are drawn.
     pub style: Style,
-    /// Place in [`COLOURS`].
+    /// LegendPlace in [`COLOURS`].
     pub colour: usize,
 }
 

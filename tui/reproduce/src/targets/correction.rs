@@ -3,7 +3,7 @@
 use crate::lab::{Lab, LabError};
 use crate::section::Section;
 use crate::svg::{self, Chart, Field, Style};
-use loschmidt_runner::isc::{Convergence, Settings, correct};
+use loschmidt_runner::isc::{Convergence, CorrectionSettings, correct};
 use std::time::Instant;
 
 /// Columns and rows of particles.
@@ -22,7 +22,8 @@ fn corrected([columns, rows]: [usize; 2]) -> Option<Corrected> {
     let mut fluid: Vec<[f64; 2]> = (0..columns * rows)
         .map(|n| [at(n % columns), at(n / columns)])
         .collect();
-    let settings = Settings::new(spacing, 3.0 * spacing, 1000.0 * spacing * spacing, 1000.0);
+    let settings =
+        CorrectionSettings::new(spacing, 3.0 * spacing, 1000.0 * spacing * spacing, 1000.0);
     let mut stages = Vec::new();
     let began = Instant::now();
     let report = correct(&mut fluid, &settings, |x, rho| {

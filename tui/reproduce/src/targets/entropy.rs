@@ -38,7 +38,8 @@ fn histogram(speeds: &[f64], sound_speed: f64) -> SpeedHistogram {
     }
 }
 
-/// Largest distance of the distribution of the sorted speeds from that of kT/m, and the speed there.
+/// Largest distance of the distribution of the sorted speeds from that of kT/m, and the speed
+/// there.
 fn kolmogorov_smirnov(speeds: &[f64], temperature: f64) -> f64 {
     let n = speeds.len() as f64;
     speeds.iter().enumerate().fold(0.0, |largest: f64, (k, v)| {

@@ -1,13 +1,14 @@
 //! Beyond the paper: what precision costs with every integrator, and what limits the order.
 //!
-//! Work is counted in force evaluations for each second of flow. Precision is the largest error of the
-//! energy over the energy released (over the kinetic energy where nothing falls). One thing at a time is
-//! changed: the dam break has the conservative wall of eq. (7), whose force -dU/dr rises from zero at r_wall
-//! with a kink, or a wall of dummies, whose force is the fluid's; two drops collide without any wall.
-//! A force with a kink makes one step in error by the square of its length whatever the integrator, and
-//! there are as many collisions however short the steps are: second order. Where neighbours enter the
-//! support, Wendland's C2 kernel has a force like (1 - r/h)³: such a step is in error by the fourth power,
-//! which a method of fourth order does not notice.
+//! Work is counted in force evaluations for each second of flow. Precision is the largest error of
+//! the energy over the energy released (over the kinetic energy where nothing falls). One thing at
+//! a time is changed: the dam break has the conservative wall of eq. (7), whose force -dU/dr rises
+//! from zero at r_wall with a kink, or a wall of dummies, whose force is the fluid's; two drops
+//! collide without any wall. A force with a kink makes one step in error by the square of its
+//! length whatever the integrator, and there are as many collisions however short the steps are:
+//! second order. Where neighbours enter the support, Wendland's C2 kernel has a force like (1 -
+//! r/h)³: such a step is in error by the fourth power, which a method of fourth order does not
+//! notice.
 //!
 //! On a smooth flow, a turning drop held together by a central attraction and far from walls and
 //! collisions, precision is the distance from the same flow at a much smaller step.

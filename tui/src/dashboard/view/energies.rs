@@ -13,7 +13,7 @@ use ratatui::style::Modifier;
 use std::borrow::Cow;
 
 /// An energy: its name, its colour, and its value in J.
-type Part = (Cow<'static, str>, Rgb, Box<dyn Fn(&Row) -> f64>);
+type EnergyCurve = (Cow<'static, str>, Rgb, Box<dyn Fn(&Row) -> f64>);
 
 /// Draws the energies.
 pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
@@ -87,7 +87,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
 
 /// The energies of a row and their sum. The kinetic one comes first, then that of gravity: they are
 /// what moves most.
-fn parts(row: &Row, ink: &Ink) -> Vec<Part> {
+fn parts(row: &Row, ink: &Ink) -> Vec<EnergyCurve> {
     let theme = &ink.theme;
     let colours = [theme.forward, theme.second, theme.third, theme.faint];
     let mut kinds: Vec<_> = row.energies.iter().map(|(kind, _)| kind.clone()).collect();
@@ -97,11 +97,11 @@ fn parts(row: &Row, ink: &Ink) -> Vec<Part> {
         _ => 2,
     });
     let kinds = kinds.into_iter().zip(colours.into_iter().cycle());
-    let part = |(kind, colour): (Cow<'static, str>, Rgb)| -> Part {
+    let part = |(kind, colour): (Cow<'static, str>, Rgb)| -> EnergyCurve {
         let name = kind.clone();
         (name, colour, Box::new(move |row: &Row| row.energy(&kind)))
     };
-    let total: Part = ("total".into(), theme.text, Box::new(|row: &Row| row.total));
+    let total: EnergyCurve = ("total".into(), theme.text, Box::new(|row: &Row| row.total));
     kinds.map(part).chain([total]).collect()
 }
 
@@ -141,7 +141,14 @@ fn flow(groups: &[Vec<Piece>], area: Rect, buf: &mut Buffer) -> u16 {
     (row + 1).min(most)
 }
 
-fn draw(stage: &StagedScene, scale: f64, parts: &[Part], area: Rect, buf: &mut Buffer, ink: &Ink) {
+fn draw(
+    stage: &StagedScene,
+    scale: f64,
+    parts: &[EnergyCurve],
+    area: Rect,
+    buf: &mut Buffer,
+    ink: &Ink,
+) {
     let rows = || stage.track.out().iter().chain(stage.track.back());
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
     for row in rows() {
