@@ -4,11 +4,11 @@
 //! holds them all to equal bits.
 
 use crate::fault::Fault;
-use crate::fields::Set;
 use crate::neighbours::{Cells, Grid};
 use crate::number::Arithmetic;
 use crate::pairs::{PairPass, Sources, Targets, gather, term_count};
 use crate::points::{PointPass, visit};
+use crate::set::Set;
 use crate::values::Values;
 
 /// Owns the traversal of particles and pairs; never a number.

@@ -86,3 +86,23 @@ pub struct CapacityError {
     /// Elements lent.
     pub given: usize,
 }
+
+/// Refuses memory that is too small.
+///
+/// # Errors
+/// Names it.
+pub fn check_capacity(
+    what: &'static str,
+    needed: usize,
+    given: usize,
+) -> Result<(), CapacityError> {
+    if needed <= given {
+        Ok(())
+    } else {
+        Err(CapacityError {
+            what,
+            needed,
+            given,
+        })
+    }
+}

@@ -6,7 +6,8 @@
 //!
 //! 1. [`number`]: fixed-point types of the state, the one odd rounding, doubles of a pair term.
 //!    [`mod@values`]: numbers with names.
-//! 2. [`fields`]: what a particle consists of, declared once, on memory lent by the caller.
+//! 2. [`fields`]: what a particle consists of, declared once. [`set`], [`operands`]: particles on
+//!    memory lent by the caller.
 //! 3. [`kernel`], [`neighbours`], [`pairs`], [`points`]: the smoothing kernel, cells, sums over
 //!    pairs as integers, which no order can change, and what happens to one particle.
 //! 4. [`executor`]: who walks particles and pairs; [`Serial`] is the reference. [`system`]: all
@@ -37,11 +38,13 @@ pub mod model;
 pub mod neighbours;
 pub mod number;
 pub mod observe;
+pub mod operands;
 pub mod owned;
 pub mod pairs;
 pub mod points;
 pub mod prelude;
 pub mod schemes;
+pub mod set;
 pub mod shears;
 pub mod system;
 pub mod values;

@@ -9,10 +9,11 @@
 
 use crate::executor::Executor;
 use crate::fault::{Fault, FaultKind};
-use crate::fields::{Field, IMPULSE_FIELD, POSITION_FIELD, SetView, VELOCITY_FIELD};
+use crate::fields::{Field, IMPULSE_FIELD, POSITION_FIELD, VELOCITY_FIELD};
 use crate::integrator::{Integrator, Stage};
 use crate::neighbours::Grid;
 use crate::number::{Arithmetic, Scale};
+use crate::set::SetView;
 use crate::shears::{Drift, Kick};
 use crate::system::System;
 use thiserror::Error;

@@ -47,11 +47,13 @@
 //! of memory for the fields ([`words`]). A push beyond the capacity gives the particle back.
 
 use crate::executor::Executor;
+use crate::fault::check_capacity;
 use crate::fault::{CapacityError, Fault};
-use crate::fields::{Field, Set, Side, check_capacity, words_each};
+use crate::fields::{Field, Side, words_each};
 use crate::model::Model;
 use crate::neighbours::{Cells, Grid};
 use crate::number::{Arithmetic, Quantity, Scale};
+use crate::set::Set;
 use crate::system::{Clock, System};
 use heapless::Vec;
 

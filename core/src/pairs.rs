@@ -9,9 +9,9 @@
 //! that walks half of the pairs what the partner receives.
 
 use crate::fault::{FaultKind, MAX_NEIGHBOURS};
-use crate::fields::{Column, read};
 use crate::neighbours::{CellsView, Grid};
 use crate::number::{Accumulate, Arithmetic, Lanes, Quantity};
+use crate::set::{Column, read};
 use crate::values::Values;
 
 /// How a term changes when the two particles are exchanged.

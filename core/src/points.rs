@@ -5,8 +5,8 @@
 //! writes; an executor calls it for every particle, in any order, on any number of threads.
 
 use crate::fault::Fault;
-use crate::fields::Operands;
 use crate::number::Arithmetic;
+use crate::operands::Operands;
 use crate::values::Values;
 
 /// What happens to one particle.

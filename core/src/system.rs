@@ -2,10 +2,11 @@
 
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::{Column, Role, Set, SetView, Side, VELOCITY};
+use crate::fields::{Role, Side, VELOCITY};
 use crate::neighbours::{Cells, CellsView, Grid};
 use crate::number::{Arithmetic, Quantity};
 use crate::pairs::{PairPass, Sources, Targets};
+use crate::set::{Column, Set, SetView};
 
 /// Where a run stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -13,10 +13,11 @@ use crate::saved::{ArithmeticKind, SavedField, SavedState};
 use crate::scene::InitialState;
 use crate::simulation::{BuildError, Options, Simulation};
 use crate::storage::Storage;
-use loschmidt_core::fields::{Set, Side, TimeParity, state_fields};
+use loschmidt_core::fields::{Side, TimeParity, state_fields};
 use loschmidt_core::model::Model;
 use loschmidt_core::number::Quantity;
 use loschmidt_core::owned::to_quanta;
+use loschmidt_core::set::Set;
 use loschmidt_core::{
     Arithmetic, Clock, Diagnostics, Digest, Fault, Reversibility, Serial, System,
 };
@@ -100,7 +101,14 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
         match &self.executor {
             AnyExecutor::Serial(exec) => task.run(model, &mut system, held, exec),
             AnyExecutor::Rayon(exec) => exec.install(|| task.run(model, &mut system, held, exec)),
-            AnyExecutor::Fast(exec) => exec.install(|| task.run(model, &mut system, held, &**exec)),
+            // Sweeps are written for integer sums. Others are left to the plain traversal here, so that
+            // the sweeps need not be compiled for them.
+            AnyExecutor::Fast(exec) if A::EXACT => {
+                exec.install(|| task.run(model, &mut system, held, &**exec))
+            }
+            AnyExecutor::Fast(exec) => {
+                exec.install(|| task.run(model, &mut system, held, exec.threads()))
+            }
         }
     }
 
@@ -282,7 +290,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Simulation for Engine<A, M, 
 
     fn backend(&self) -> String {
         match &self.executor {
-            AnyExecutor::Fast(exec) => exec.backend_at_work(),
+            AnyExecutor::Fast(exec) if A::EXACT => exec.backend_at_work(),
             _ => "serial".to_owned(),
         }
     }

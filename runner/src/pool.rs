@@ -7,10 +7,11 @@
 
 use crate::drive::Drive;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
-use loschmidt_core::fields::{Operands, Set, read};
 use loschmidt_core::neighbours::{Cells, Grid};
+use loschmidt_core::operands::Operands;
 use loschmidt_core::pairs::{PairPass, Sources, Targets, accumulate, separation, term_count};
 use loschmidt_core::points::{PointPass, visit};
+use loschmidt_core::set::{Set, read};
 use loschmidt_core::values::Values;
 use loschmidt_core::{Arithmetic, Executor, Fault, FaultKind};
 use rayon::prelude::*;

@@ -1,10 +1,11 @@
 //! A system in vectors.
 
 use crate::drive::Held;
-use loschmidt_core::fields::{Field, Set, Side, words_each};
+use loschmidt_core::fields::{Field, Side, words_each};
 use loschmidt_core::model::Model;
 use loschmidt_core::neighbours::{Cells, Grid};
 use loschmidt_core::number::Quantity;
+use loschmidt_core::set::Set;
 use loschmidt_core::{Arithmetic, Clock, System};
 
 /// Owns what the core borrows.

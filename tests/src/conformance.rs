@@ -16,10 +16,11 @@
 use crate::generator::Generator;
 use crate::program::{backends, fast, serial, threads};
 use crate::small::Scheme;
-use loschmidt_core::fields::{Set, Side, words_each};
+use loschmidt_core::fields::{Side, words_each};
 use loschmidt_core::neighbours::{Cells, Grid};
 use loschmidt_core::number::Whole;
 use loschmidt_core::owned::to_quanta;
+use loschmidt_core::set::Set;
 use loschmidt_core::{
     Clock, Diagnostics, Digest, Fault, Filtered, Fixed, Model, Reversibility, Serial, Standard,
     Symplectic, System,

@@ -1,7 +1,7 @@
 //! What ends a run is typed, and names the particle and the step.
 
 use loschmidt_core::fault::MAX_NEIGHBOURS;
-use loschmidt_core::fields::{POSITION_FIELD, Set, Side, VELOCITY, VELOCITY_FIELD};
+use loschmidt_core::fields::{POSITION_FIELD, Side, VELOCITY, VELOCITY_FIELD};
 use loschmidt_core::integrator::{Integrator, Stage};
 use loschmidt_core::number::{Arithmetic, LIMIT_BITS, Quantity, Whole};
 use loschmidt_core::owned::{Owned, words};
@@ -9,6 +9,7 @@ use loschmidt_core::points::PointPass;
 use loschmidt_core::schemes::wcsph::{
     CONSTANT, Central, DensityCorrection, Gravity, StateEquation, Wall,
 };
+use loschmidt_core::set::Set;
 use loschmidt_core::{
     CapacityError, Diagnostics, Executor, Fault, FaultKind, Fixed, Float, Model, Parameters, Scale,
     Serial, Symplectic,

@@ -1,13 +1,14 @@
 //! What a system refuses to be set up with is typed, and gives back what it was handed.
 
 use crate::faults::units;
-use loschmidt_core::fields::{Field, MAX_FIELDS, POSITION_FIELD, Set, Side, words_each};
+use loschmidt_core::fields::{Field, MAX_FIELDS, POSITION_FIELD, Side, words_each};
 use loschmidt_core::integrator::PEFRL;
 use loschmidt_core::model::SetupError;
 use loschmidt_core::neighbours::Grid;
 use loschmidt_core::number::{Quantity, Whole};
 use loschmidt_core::owned::{Owned, PushError, words};
 use loschmidt_core::schemes::wcsph::{Central, FIXED_DENSITY, Wall};
+use loschmidt_core::set::Set;
 use loschmidt_core::{CapacityError, Fixed, Model, Parameters, Symplectic};
 use loschmidt_tests::small::{FLUID, Recipe, downwards, water};
 

@@ -3,13 +3,14 @@
 //! leaves the words of the plain traversal, and its faults.
 
 use loschmidt_core::fields::{
-    Column, Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Rank, Role, Set, Side, TimeParity,
-    VELOCITY, VELOCITY_FIELD, state_fields, words_each,
+    Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Rank, Role, Side, TimeParity, VELOCITY,
+    VELOCITY_FIELD, state_fields, words_each,
 };
 use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::neighbours::{Cells, Grid};
 use loschmidt_core::number::{Lanes, Length, Quantity, Whole, Word};
 use loschmidt_core::pairs::{PairPass, Parity, Sources, Targets, read_count, term_count};
+use loschmidt_core::set::{Column, Set};
 use loschmidt_core::values::Symmetric;
 use loschmidt_core::{Executor, Fault, FaultKind, Fixed, Serial};
 use loschmidt_runner::Rayon;

@@ -9,7 +9,7 @@ use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::preset;
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options};
 use loschmidt_viewer::session::MOST_THREADS;
-use loschmidt_viewer::window::ThemeName;
+use loschmidt_viewer::theme_name::ThemeName;
 use loschmidt_viewer::{Colormap, Colouring};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;

@@ -44,6 +44,8 @@ pub mod raster;
 pub mod session;
 mod stamp;
 pub mod text;
+#[cfg(feature = "cli")]
+pub mod theme_name;
 pub mod track;
 mod wide;
 #[cfg(feature = "window")]

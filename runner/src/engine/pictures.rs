@@ -3,9 +3,9 @@
 use super::{AnyExecutor, on_threads};
 use crate::frame::{Frame, FrameColumn};
 use crate::points::{Points, PointsPart, speed};
-use loschmidt_core::fields::SetView;
 use loschmidt_core::model::Model;
 use loschmidt_core::number::Quantity;
+use loschmidt_core::set::SetView;
 use loschmidt_core::{Arithmetic, Scale, System};
 use rayon::prelude::*;
 

@@ -21,12 +21,13 @@ use super::lanes::{Quad, ROW, Reals};
 use super::layout::{Crew, Layout, Strip};
 use super::memory::{Arguments, LIMIT, Memory, larger};
 use super::sweep::{Leg, Sums, add_received, contributors};
-use loschmidt_core::fields::{IMPULSE, POSITION, Set};
+use loschmidt_core::fields::{IMPULSE, POSITION};
 use loschmidt_core::number::Quantity;
 use loschmidt_core::pairs::PairPass;
 use loschmidt_core::schemes::wcsph::{
     CONSTANT, DENSITY, DensityPass, Pressed, PressureFactor, PressurePass, Pull, Water,
 };
+use loschmidt_core::set::Set;
 use loschmidt_core::{Arithmetic, Fault, FaultKind};
 use std::ops::Range;
 

@@ -19,8 +19,8 @@ use super::backend::{Backend, Work};
 use super::lanes::{Quad, ROW, Reals};
 use super::meets::Meets;
 use loschmidt_core::Arithmetic;
-use loschmidt_core::fields::Set;
 use loschmidt_core::number::Quantity;
+use loschmidt_core::set::Set;
 use std::ops::Range;
 
 /// How many times a layout is made in the same box.

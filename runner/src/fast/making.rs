@@ -6,8 +6,9 @@ use super::layout::{Crew, Layout, Strip};
 use super::meets::{Meeting, Meets};
 use loschmidt_core::Arithmetic;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
-use loschmidt_core::fields::{Role, Set};
+use loschmidt_core::fields::Role;
 use loschmidt_core::number::Quantity;
+use loschmidt_core::set::Set;
 use rayon::prelude::*;
 use std::ops::Range;
 

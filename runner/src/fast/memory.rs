@@ -5,8 +5,8 @@ use super::layout::Layout;
 use super::sweep::Sums;
 use super::walls::NearWalls;
 use loschmidt_core::Arithmetic;
-use loschmidt_core::fields::read;
 use loschmidt_core::pairs::{PairPass, Targets, read_count};
+use loschmidt_core::set::read;
 use loschmidt_core::values::Values;
 
 /// Arguments of the terms of three strips in turn.

@@ -30,13 +30,12 @@ pub use places::Places;
 pub use state::WindowState;
 pub use update::update;
 
-use crate::colour::Theme;
 use crate::colouring::Colouring;
 use crate::look::Look;
 use crate::picture::Picture;
 use crate::session::{MOST_THREADS, Request};
 use app::{App, Wake};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use loschmidt_runner::Options;
 use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -71,7 +70,7 @@ pub struct WindowArguments {
     pub color: Option<Colouring>,
     /// Colours of the window
     #[arg(long, default_value = "dark")]
-    pub theme: ThemeName,
+    pub theme: crate::theme_name::ThemeName,
     /// Width and height of the window, in pixels of a plain display
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: (usize, usize),
@@ -85,24 +84,6 @@ pub struct WindowArguments {
     /// Tell on standard error what happens, for scripts
     #[arg(long)]
     pub log: bool,
-}
-
-/// Names of the themes.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ThemeName {
-    /// Light on dark
-    Dark,
-    /// Dark on light
-    Light,
-}
-
-impl From<ThemeName> for Theme {
-    fn from(name: ThemeName) -> Self {
-        match name {
-            ThemeName::Dark => Self::DARK,
-            ThemeName::Light => Self::LIGHT,
-        }
-    }
 }
 
 fn colour(text: &str) -> Result<Colouring, String> {

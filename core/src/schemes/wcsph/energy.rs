@@ -10,10 +10,11 @@ use super::fields::DENSITY;
 use super::water::Water;
 use crate::exact::ExactSum;
 use crate::fault::{Fault, FaultKind};
-use crate::fields::{SetView, Side};
+use crate::fields::Side;
 use crate::model::{MAX_ENERGIES, Measure};
 use crate::number::{Arithmetic, Quantity};
 use crate::observe::sum_over_pairs;
+use crate::set::SetView;
 use crate::system::System;
 
 /// Kinds of energy.

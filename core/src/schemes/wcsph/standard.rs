@@ -19,10 +19,11 @@ use super::updates::Evolved;
 use super::water::Water;
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::{Field, SetView, Side, VELOCITY};
+use crate::fields::{Field, Side, VELOCITY};
 use crate::integrator::Stage;
 use crate::model::{MAX_ENERGIES, Measure, Model, Reversibility, Settings, SetupError};
 use crate::number::Arithmetic;
+use crate::set::SetView;
 use crate::shears;
 use crate::system::{Sum, System};
 

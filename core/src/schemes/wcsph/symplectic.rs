@@ -16,10 +16,11 @@ use super::updates::{AddConstant, FixedPart};
 use super::water::Water;
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::{Field, SetView, Side};
+use crate::fields::{Field, Side};
 use crate::integrator::Stage;
 use crate::model::{MAX_ENERGIES, Measure, Model, Settings, SetupError};
 use crate::number::Arithmetic;
+use crate::set::SetView;
 use crate::system::{Sum, System};
 
 /// Reversible weakly compressible SPH ("model A").

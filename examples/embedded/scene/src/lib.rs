@@ -71,7 +71,7 @@ type Water = Symplectic<Fixed, 2>;
 /// Words for the fields of water and walls.
 const WORDS: usize = words(<Water as Model<Fixed, 2>>::FIELDS, 2, FLUID, WALLS);
 
-/// The system, with all of its memory: about 60 kB.
+/// The system, with all of its memory: about 63 kB.
 pub type Dam = Owned<Fixed, Water, 2, FLUID, WALLS, { BUCKETS + 1 }, WORDS>;
 
 /// What a run came to.
