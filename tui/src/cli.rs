@@ -320,8 +320,8 @@ impl From<ColorName> for Colouring {
     fn from(name: ColorName) -> Self {
         match name {
             ColorName::Speed => Self::Speed,
-            ColorName::Density => Self::Density,
-            ColorName::Pressure => Self::Pressure,
+            ColorName::Density => Self::DENSITY,
+            ColorName::Pressure => Self::PRESSURE,
             ColorName::InitialHeight => Self::InitialHeight,
             ColorName::Displacement => Self::Displacement,
         }

@@ -2,6 +2,7 @@
 
 use crate::colour::{Colormap, Rgb};
 use crate::home::Home;
+use loschmidt_core::model::Measure;
 use loschmidt_runner::Points;
 use std::sync::Arc;
 
@@ -11,10 +12,8 @@ pub enum Colouring {
     /// Its speed.
     #[default]
     Speed,
-    /// Its density.
-    Density,
-    /// Its pressure.
-    Pressure,
+    /// One of the columns of its model.
+    Column(Measure),
     /// Its height at home.
     InitialHeight,
     /// Its distance from home.
@@ -25,22 +24,41 @@ pub enum Colouring {
 }
 
 impl Colouring {
-    /// Those that a number and a legend belong to.
+    /// The density of water.
+    pub const DENSITY: Self = Self::Column(Measure {
+        name: "density",
+        unit: "kg/m³",
+    });
+    /// The pressure of water.
+    pub const PRESSURE: Self = Self::Column(Measure {
+        name: "pressure",
+        unit: "Pa",
+    });
+    /// Those of water that a number and a legend belong to.
     pub const MEASURED: [Self; 5] = [
         Self::Speed,
-        Self::Density,
-        Self::Pressure,
+        Self::DENSITY,
+        Self::PRESSURE,
         Self::InitialHeight,
         Self::Displacement,
     ];
+
+    /// Those of a model with these columns that a number and a legend belong to.
+    pub fn choices(columns: impl Iterator<Item = Measure>) -> Vec<Self> {
+        let columns = columns.map(Self::Column);
+        let places = [Self::InitialHeight, Self::Displacement];
+        std::iter::once(Self::Speed)
+            .chain(columns)
+            .chain(places)
+            .collect()
+    }
 
     /// The name used on the command line.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
             Self::Speed => "speed",
-            Self::Density => "density",
-            Self::Pressure => "pressure",
+            Self::Column(measure) => measure.name,
             Self::InitialHeight => "initial-height",
             Self::Displacement => "displacement",
             Self::Picture(_) => "picture",
@@ -58,8 +76,7 @@ impl Colouring {
     pub fn title(&self) -> &'static str {
         match self {
             Self::Speed => "speed",
-            Self::Density => "density",
-            Self::Pressure => "pressure",
+            Self::Column(measure) => measure.name,
             Self::InitialHeight => "initial height",
             Self::Displacement => "distance from home",
             Self::Picture(_) => "picture",
@@ -71,8 +88,7 @@ impl Colouring {
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Speed => "m/s",
-            Self::Density => "kg/m³",
-            Self::Pressure => "Pa",
+            Self::Column(measure) => measure.unit,
             Self::InitialHeight | Self::Displacement => "m",
             Self::Picture(_) => "",
         }
@@ -83,7 +99,7 @@ impl Colouring {
     pub fn colormap(&self) -> Colormap {
         match self {
             Self::Speed | Self::Picture(_) | Self::InitialHeight => Colormap::Viridis,
-            Self::Density | Self::Pressure => Colormap::CoolWarm,
+            Self::Column(_) => Colormap::CoolWarm,
             Self::Displacement => Colormap::Magma,
         }
     }
@@ -94,14 +110,15 @@ impl Colouring {
         let u2 = home.speed * home.speed;
         match self {
             Self::Speed => [0.0, round_number(home.speed)],
-            Self::Density => {
+            Self::Column(measure) if measure.name == "density" => {
                 let swing = round_number(3.0 * u2 / (home.sound_speed * home.sound_speed));
                 [1.0 - swing, 1.0 + swing].map(|x| x * home.reference_density)
             }
-            Self::Pressure => {
+            Self::Column(measure) if measure.name == "pressure" => {
                 let swing = round_number(home.reference_density * u2);
                 [-swing, swing]
             }
+            Self::Column(measure) => home.range_of(measure.name),
             Self::InitialHeight => {
                 let (low, high) = (home.fluid.low[home.up], home.fluid.high[home.up]);
                 // The bottom of a basin is at 0 m, whatever rounding has made of it.
@@ -129,8 +146,8 @@ impl Colouring {
         };
         match self {
             Self::Speed => points.speed[place].into(),
-            Self::Density | Self::Pressure => {
-                let column = points.column(self.name());
+            Self::Column(measure) => {
+                let column = points.column(measure.name);
                 column.map_or(0.0, |values| values[place].into())
             }
             Self::InitialHeight => at_home(place)[home.up],
@@ -207,9 +224,7 @@ impl<'a> Painter<'a> {
     pub fn colours(&self, points: &Points, home: &Home, first: usize, colours: &mut [Rgb]) {
         let list = match self.colouring {
             Colouring::Speed => &points.speed[..],
-            Colouring::Density | Colouring::Pressure => {
-                points.column(self.colouring.name()).unwrap_or_default()
-            }
+            Colouring::Column(measure) => points.column(measure.name).unwrap_or_default(),
             _ => {
                 for (k, colour) in colours.iter_mut().enumerate() {
                     *colour = self.colour(points, home, first + k);

@@ -8,7 +8,9 @@
 //!   the gravity g (m/s²); a tenth of the sound speed where both are zero,
 //! - pressure ρ₀ U², density ρ₀ (1 ± 3 U²/c²).
 
+use loschmidt_core::model::Measure;
 use loschmidt_runner::Frame;
+use loschmidt_runner::frame::FrameColumn;
 use loschmidt_runner::scene::{Dimension, Scene};
 
 /// A box along the axes, m.
@@ -85,6 +87,8 @@ pub struct Home {
     pub walls: Option<Box3>,
     /// Physical time of the turnaround, or of the end of a one-way run, s.
     pub span: f64,
+    /// The columns of the model, with the least and the greatest value at home.
+    pub columns: Vec<(Measure, [f64; 2])>,
 }
 
 impl Home {
@@ -133,8 +137,36 @@ impl Home {
             shown,
             walls,
             span,
+            columns: frame.columns.iter().map(extremes).collect(),
         }
     }
+
+    /// A range for a column: that at home, and its own width to either side.
+    pub(crate) fn range_of(&self, name: &str) -> [f64; 2] {
+        let mut columns = self.columns.iter();
+        let Some((_, [low, high])) = columns.find(|(measure, _)| measure.name == name) else {
+            return [0.0, 1.0];
+        };
+        let width = if high > low {
+            high - low
+        } else {
+            high.abs().max(1.0)
+        };
+        [low - width, high + width]
+    }
+}
+
+/// A column with its least and its greatest value.
+fn extremes(column: &FrameColumn) -> (Measure, [f64; 2]) {
+    let values = || column.values.iter().copied().filter(|x| x.is_finite());
+    let range = match values().next() {
+        None => [0.0, 1.0],
+        Some(first) => [
+            values().fold(first, f64::min),
+            values().fold(first, f64::max),
+        ],
+    };
+    (column.measure, range)
 }
 
 /// Without walls the view has room on every side for half of what the fastest particle could fly

@@ -80,7 +80,7 @@ fn the_pixels_of_two_panes_are_the_committed_ones_for_any_number_of_threads() {
     };
     let other = Pane {
         label: "another",
-        colouring: Some(&Colouring::Pressure),
+        colouring: Some(&Colouring::PRESSURE),
         ..one
     };
     assert_same("two-panes", || draw(&[one, other], &home, &look, 480, 270));
@@ -182,7 +182,7 @@ fn a_picture_drawn_over_another_one_is_the_same() {
         ..points.clone()
     };
     let pressure = Look {
-        colouring: Colouring::Pressure,
+        colouring: Colouring::PRESSURE,
         ..Look::default()
     };
     let pictures = [

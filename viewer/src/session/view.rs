@@ -4,6 +4,7 @@ use super::state::Session;
 use crate::camera::{Projection, View};
 use crate::colour::{Colormap, Theme};
 use crate::colouring::Colouring;
+use crate::home::Home;
 use crate::keys::Action;
 
 /// Radians that a key turns the view by.
@@ -51,8 +52,11 @@ impl Session {
         let look = &mut self.look;
         match action {
             Action::Colour => {
-                let tint = self.stage.as_ref().and_then(|stage| stage.tint.clone());
-                look.colouring = next_colouring(&look.colouring, tint.map(Colouring::Picture));
+                let stage = self.stage.as_ref();
+                let tint = stage.and_then(|stage| stage.tint.clone());
+                let home = stage.map(|stage| &stage.home);
+                look.colouring =
+                    next_colouring(&look.colouring, tint.map(Colouring::Picture), home);
             }
             Action::Colormap => look.colormap = next_colormap(look.colormap),
             Action::Theme => {
@@ -80,8 +84,9 @@ impl Session {
 }
 
 /// The colouring after this one; that of a picture comes last, where there is one.
-fn next_colouring(now: &Colouring, tint: Option<Colouring>) -> Colouring {
-    let all = Colouring::MEASURED;
+fn next_colouring(now: &Colouring, tint: Option<Colouring>, home: Option<&Home>) -> Colouring {
+    let columns = home.map_or(&[][..], |home| &home.columns);
+    let all = Colouring::choices(columns.iter().map(|(measure, _)| *measure));
     match (all.iter().position(|c| c == now), tint) {
         (Some(place), Some(tint)) if place + 1 == all.len() => tint,
         (Some(place), _) => all[(place + 1) % all.len()].clone(),
