@@ -112,7 +112,7 @@ struct LennardJones {
 impl LennardJones {
     fn new(p: Parameters<2>) -> Result<Self, SetupError> {
         Ok(Self {
-            settings: p.settings([("support", p.support_radius); 2], 0.5 * p.sound_speed)?,
+            settings: p.settings([("support", p.support_radius); 2], 0.005 * p.sound_speed)?,
             reach: p.support_radius / p.scale.length_quantum(),
             epsilon_over_mass: 0.01 * p.sound_speed * p.sound_speed,
         })

@@ -14,9 +14,11 @@ use crate::values::Values;
 /// Owns the traversal of particles and pairs; never a number.
 pub trait Executor {
     /// Makes the neighbours of the particles findable after they have moved: sorts them into
-    /// `cells`, or into whatever the executor finds them in. With `for_others`, particles of
-    /// another set (walls) will look for them too, in `cells`. The executor may change the storage
-    /// order of the particles: ids travel along, and what the scratch held is of no use afterwards.
+    /// `cells`, or into whatever the executor finds them in. `cells` are read by others than the
+    /// executor's sums over particles: by walls that look for particles, and by
+    /// [`sum_over_pairs`](crate::observe::sum_over_pairs); whoever needs them says so with
+    /// `for_others`. The executor may change the storage order of the particles: ids travel along,
+    /// and what the scratch held is of no use afterwards.
     fn locate<A: Arithmetic, const D: usize>(
         &self,
         grid: &Grid<D>,

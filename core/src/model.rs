@@ -51,8 +51,8 @@ pub struct Settings<const D: usize> {
     pub time_step: f64,
     /// The table of a step.
     pub integrator: &'static Integrator,
-    /// Upper end of the histogram of speeds, m/s.
-    pub fastest: f64,
+    /// Width of a bin of the histogram of speeds, m/s; there are [`BINS`](crate::observe::BINS).
+    pub speed_bin: f64,
     /// Geometry of the cells of particles and of walls.
     pub grids: [Grid<D>; 2],
 }
@@ -102,7 +102,8 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     }
 
     /// Sets up those fields of the state that follow from the initial positions. Called once at
-    /// step 0; never again, neither on reversal nor on resumption.
+    /// step 0; never again, neither on reversal nor on resumption. Whoever overrides it marks the
+    /// clock as initialised and calls [`Model::place_walls`], as here.
     ///
     /// # Errors
     /// As a step.
@@ -182,7 +183,8 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     }
 
     /// Energies by kind, J (per m of depth in 2D), of a system that was refreshed; the rest of the
-    /// array is zero. The kinetic one is measured by the caller.
+    /// array is zero. The kinetic one is measured by the caller. Sums of doubles go through
+    /// [`ExactSum`](crate::exact::ExactSum), so that they do not depend on the storage order.
     ///
     /// # Errors
     /// A particle without an energy.

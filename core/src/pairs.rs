@@ -52,7 +52,8 @@ pub trait PairPass<const D: usize>: Sync {
         r2
     }
     /// The term, in quanta of its sums and not yet rounded, for x_ij = x_i - x_j (length quanta),
-    /// the argument of |x_ij|², and what is read of i and j (in quanta of their fields).
+    /// the argument of |x_ij|², and what is read of i and j (in quanta of their fields). Two
+    /// particles may be in one place: the term must be finite at a distance of zero.
     fn term<L: Lanes>(
         &self,
         x_ij: &[L; D],

@@ -73,11 +73,12 @@ impl<'a> Sum<'a> {
 pub const MAX_READ: usize = 8;
 
 impl<A: Arithmetic, const D: usize> System<'_, A, D> {
-    /// Makes the particles findable at their present positions. With `for_walls`, walls will look
-    /// for them too.
-    pub fn locate<E: Executor>(&mut self, exec: &E, for_walls: bool) {
+    /// Makes the particles findable at their present positions. With `for_others`, also for walls
+    /// and for energies over pairs ([`sum_over_pairs`](crate::observe::sum_over_pairs)): needed
+    /// where the model has such.
+    pub fn locate<E: Executor>(&mut self, exec: &E, for_others: bool) {
         let (particles, cells) = (&mut self.particles, &mut self.cells);
-        exec.locate(self.grids[0], particles, cells, for_walls);
+        exec.locate(self.grids[0], particles, cells, for_others);
     }
 
     /// Makes the walls findable. They stand still: once is enough.

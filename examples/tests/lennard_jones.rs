@@ -6,8 +6,8 @@
 mod gas;
 
 use loschmidt_runner::run::RunError;
-use loschmidt_runner::scene::{Scene, Source, load};
-use loschmidt_runner::{ExecutorKind, Options, Player, Run};
+use loschmidt_runner::scene::{Dimension, Scene, Source, load};
+use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options, Player, Run};
 use loschmidt_viewer::movie::{Movie, MovieStyle, Stored};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -112,4 +112,32 @@ fn a_misspelt_model_is_told_the_names_that_this_program_knows() {
     let error = load(&Source::Text { name, text }, &[]).expect_err("no such model");
     let text = error.to_string();
     assert!(text.contains("did you mean \"lennard-jones\"?"), "{text}");
+}
+
+#[test]
+fn what_the_gas_is_not_written_for_is_refused() {
+    let scene = scene(&[]);
+    let initial = scene.initial_state().expect("particles");
+    let options = Options {
+        arithmetic: ArithmeticKind::Float,
+        ..Options::default()
+    };
+    let error = Player::new(scene.clone(), initial.clone(), options)
+        .err()
+        .expect("no gas of floats");
+    let text = error.to_string();
+    assert_eq!(
+        text,
+        "the model `lennard-jones` is not written for this arithmetic"
+    );
+    let mut space = scene;
+    space.dimension = Dimension::Three;
+    let error = Player::new(space, initial, Options::default())
+        .err()
+        .expect("no gas in space");
+    let text = error.to_string();
+    assert_eq!(
+        text,
+        "the model `lennard-jones` is not written for this dimension"
+    );
 }

@@ -11,7 +11,8 @@ use loschmidt_core::fields::Field;
 use loschmidt_core::model::{Measure, Model};
 use std::sync::{PoisonError, RwLock};
 
-/// Makes a simulation of a scene.
+/// Makes a simulation of a scene, in the arithmetic that the options ask for: one in another is
+/// refused.
 pub type Build = fn(&Scene, &InitialState, &Options) -> Result<Box<dyn Simulation>, BuildError>;
 
 /// A model of one's own.
@@ -19,6 +20,8 @@ pub type Build = fn(&Scene, &InitialState, &Options) -> Result<Box<dyn Simulatio
 pub struct OwnModel {
     /// Its word in scenes. It reads the same keys as the models of water do.
     pub name: &'static str,
+    /// The dimension that it is written for.
+    pub dimension: usize,
     /// Makes a simulation of a scene, by [`crate::simulate`].
     pub build: Build,
     /// Its [`FIELDS`](loschmidt_core::Model::FIELDS): they say how much memory a scene takes.
@@ -36,6 +39,7 @@ impl OwnModel {
     ) -> Self {
         Self {
             name,
+            dimension: D,
             build,
             fields: M::FIELDS,
             columns: M::COLUMNS,

@@ -33,7 +33,7 @@ pub fn simulation(
     use scene::Dimension as D;
     if let scene::Model::Own(name) = scene.model {
         let model = own::find(name).ok_or(BuildError::UnknownModel(name))?;
-        return (model.build)(scene, initial, options);
+        return of_ones_own(&model, scene, initial, options);
     }
     match (scene.dimension, options.arithmetic) {
         (D::Two, A::Fixed) => build::<Fixed, 2>(scene, initial, options),
@@ -41,6 +41,27 @@ pub fn simulation(
         (D::Three, A::Fixed) => build::<Fixed, 3>(scene, initial, options),
         (D::Three, A::Float) => build::<Float, 3>(scene, initial, options),
     }
+}
+
+/// Makes a simulation of a model of one's own, and looks whether it is what was asked for.
+fn of_ones_own(
+    model: &OwnModel,
+    scene: &Scene,
+    initial: &InitialState,
+    options: &Options,
+) -> Result<Box<dyn Simulation>, BuildError> {
+    let unsuited = |what| BuildError::Unsuited {
+        model: model.name,
+        what,
+    };
+    if scene.dimension.axes() != model.dimension {
+        return Err(unsuited("this dimension"));
+    }
+    let mut simulation = (model.build)(scene, initial, options)?;
+    if simulation.save().arithmetic != options.arithmetic {
+        return Err(unsuited("this arithmetic"));
+    }
+    Ok(simulation)
 }
 
 /// Makes the model of a scene out of the list.

@@ -69,6 +69,14 @@ pub enum BuildError {
     /// A scene whose model this program has not registered.
     #[error("this program does not know the model `{0}` of the scene")]
     UnknownModel(&'static str),
+    /// A registered model that cannot do what scene or options ask for.
+    #[error("the model `{model}` is not written for {what}")]
+    Unsuited {
+        /// Its name.
+        model: &'static str,
+        /// What is asked for.
+        what: &'static str,
+    },
     /// A saved state of another scene.
     #[error("the saved state does not belong to this scene: {0}")]
     Foreign(&'static str),

@@ -5,7 +5,7 @@ use loschmidt_core::owned::{Owned, words};
 use loschmidt_core::{Diagnostics, Fixed, Model, Parameters, Serial, Symplectic};
 use loschmidt_tests::generator::Generator;
 use loschmidt_tests::permitted;
-use loschmidt_tests::small::{SPACING, lattice, water};
+use loschmidt_tests::small::{Recipe, SPACING, lattice, measure, water};
 use std::f64::consts::PI;
 
 const PARTICLES: usize = 2000;
@@ -104,6 +104,17 @@ fn equilibrium_is_recognised<const D: usize>() {
                 "{D} {temperature} {error}"
             );
         }
+    }
+}
+
+#[test]
+fn the_bins_of_water_are_as_wide_as_files_of_earlier_programs_have_them() {
+    // c/6 divided by the number of bins is another double for some of these.
+    for c in 1..40 {
+        let mut recipe = Recipe::block(water::<3>(), [2, 2, 2]);
+        recipe.parameters.sound_speed = f64::from(c);
+        let width = measure(&mut recipe.symplectic()).histogram.bin_width;
+        assert_eq!(width, f64::from(c) / (6.0 * BINS as f64));
     }
 }
 

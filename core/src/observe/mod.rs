@@ -119,7 +119,7 @@ impl Diagnostics {
             model.scale().length_quantum(),
             model.scale().speed_quantum(),
         );
-        let (mass, fastest) = (model.settings().mass, model.settings().fastest);
+        let (mass, speed_bin) = (model.settings().mass, model.settings().speed_bin);
         let momentum_quanta = momentum(system);
         let angular_momentum_quanta = angular_momentum(system);
         let position = system.particles.position();
@@ -134,7 +134,7 @@ impl Diagnostics {
         energies[0] = squares(system) * 0.5 * mass * (sq * sq);
         Ok(Self {
             energies: Energies::new(M::ENERGIES, energies),
-            histogram: SpeedHistogram::measure(system, fastest / BINS as f64, sq),
+            histogram: SpeedHistogram::measure(system, speed_bin, sq),
             momentum: momentum_quanta.map(|q| q as f64 * (sq * mass)),
             angular_momentum: angular_momentum_quanta.map(|q| q as f64 * (sq * lq * mass)),
             momentum_quanta,

@@ -8,7 +8,8 @@ use crate::pairs::{PairPass, Sources, Targets, gather};
 use crate::system::System;
 
 /// Adds to `sum` the terms of all particles that move with the particles of one side, `times` over.
-/// Each pair of moving particles is met twice. Nothing is read of a particle but its position.
+/// Each pair of moving particles is met twice. Nothing is read of a particle but its position. The
+/// particles must have been located for others ([`System::locate`]) since they moved.
 ///
 /// # Errors
 /// A particle with too many neighbours.

@@ -137,7 +137,8 @@ pub fn read(mut reader: impl Read) -> io::Result<Vec<Row>> {
     for record in reader.records() {
         let record = record?;
         let line = record.position().map_or(0, csv::Position::line);
-        rows.push(row(&record, &kinds).ok_or_else(|| bad(&format!("line {line}")))?);
+        let row = row(&record, &kinds);
+        rows.push(row.map_err(|column| bad(&format!("`{column}` in line {line}")))?);
     }
     Ok(rows)
 }
@@ -163,23 +164,29 @@ fn kinds(header: &csv::StringRecord) -> io::Result<Vec<String>> {
 }
 
 /// A line as a row.
-fn row(record: &csv::StringRecord, kinds: &[String]) -> Option<Row> {
+///
+/// # Errors
+/// The column whose number is missing or none.
+fn row(record: &csv::StringRecord, kinds: &[String]) -> Result<Row, String> {
     let mut row = Row::default();
     let mut texts = record.iter();
-    for column in &HEAD {
-        column.2(&mut row, texts.next()?)?;
+    for (name, _, read) in &HEAD {
+        let number = texts.next().and_then(|text| read(&mut row, text));
+        number.ok_or_else(|| (*name).to_owned())?;
     }
     for kind in kinds {
-        let value = texts.next()?.parse().ok()?;
+        let value = texts.next().and_then(|text| text.parse().ok());
+        let value = value.ok_or_else(|| heading(kind))?;
         row.energies.push((kind.clone().into(), value));
     }
-    for column in &TAIL {
-        column.2(&mut row, texts.next()?)?;
+    for (name, _, read) in &TAIL {
+        let number = texts.next().and_then(|text| read(&mut row, text));
+        number.ok_or_else(|| (*name).to_owned())?;
     }
-    Some(row)
+    Ok(row)
 }
 
 fn bad(what: &str) -> io::Error {
-    let message = format!("{what} is not one of a series");
+    let message = format!("{what} is not that of a series");
     io::Error::new(io::ErrorKind::InvalidData, message)
 }

@@ -63,7 +63,8 @@ pub struct Run {
 }
 
 impl Run {
-    /// Sets up a scene at home, in a new directory if one is given.
+    /// Sets up a scene at home, in a new directory if one is given; with `true` beside it, an
+    /// earlier run in it is replaced.
     ///
     /// # Errors
     /// The scene is too large or cannot be simulated; the directory cannot be made.

@@ -104,14 +104,14 @@ pub struct Parameters<const D: usize> {
 
 impl<const D: usize> Parameters<D> {
     /// What every model says of itself, for sums that reach so far (m, each with the name of the
-    /// parameter it comes from) between particles and to walls, and speeds up to `fastest` (m/s).
+    /// parameter it comes from) between particles and to walls, and bins of speeds of this width (m/s).
     ///
     /// # Errors
     /// A reach out of the number range.
     pub fn settings(
         &self,
         reaches: [(&'static str, f64); 2],
-        fastest: f64,
+        speed_bin: f64,
     ) -> Result<Settings<D>, SetupError> {
         let length = self.scale.length_quantum();
         let extent = self.extent.map(|e| (e / length) as i64);
@@ -124,7 +124,7 @@ impl<const D: usize> Parameters<D> {
             mass: self.mass,
             time_step: self.time_step,
             integrator: self.integrator,
-            fastest,
+            speed_bin,
             grids: [grid(reaches[0])?, grid(reaches[1])?],
         })
     }

@@ -18,6 +18,7 @@ use crate::fault::Fault;
 use crate::fields::{IMPULSE, Side};
 use crate::model::{Settings, SetupError};
 use crate::number::{Arithmetic, Quantity};
+use crate::observe::BINS;
 use crate::pairs::PairPass;
 use crate::shears::Drift;
 use crate::system::{Sum, System};
@@ -68,10 +69,10 @@ impl<A: Arithmetic, const D: usize> Water<A, D> {
         let reference = p.reference_density;
         Ok(Self {
             reach,
-            // The flow is to be much slower than sound.
+            // The flow is to be much slower than sound: the bins end at c/6.
             settings: p.settings(
                 [("support_radius", support_radius), of_walls],
-                p.sound_speed / 6.0,
+                p.sound_speed / (6.0 * BINS as f64),
             )?,
             inverse_reference: density / reference,
             reference_density: rounded(reference, density, no("reference_density", reference))?,
