@@ -104,7 +104,8 @@ pub struct Parameters<const D: usize> {
 
 impl<const D: usize> Parameters<D> {
     /// What every model says of itself, for sums that reach so far (m, each with the name of the
-    /// parameter it comes from) between particles and to walls, and bins of speeds of this width (m/s).
+    /// parameter it comes from) between particles and to walls, and bins of speeds of this width
+    /// (m/s).
     ///
     /// # Errors
     /// A reach out of the number range.
