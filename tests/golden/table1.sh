@@ -11,7 +11,7 @@ cd "$(dirname "$0")/../.."
 cargo build --release --quiet
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-target/release/loschmidt run dam-break --json --quiet --out "$out/run" "$@" > "$out/result.json"
+"${CARGO_TARGET_DIR:-target}/release/loschmidt" run dam-break --json --quiet --out "$out/run" "$@" > "$out/result.json"
 grep -o '"wall_time_s":[0-9.]*' "$out/result.json"
 failed=0
 while read -r moment digest; do
