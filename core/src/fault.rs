@@ -11,6 +11,9 @@ pub enum FaultKind {
     /// A velocity component reached 2^51 quanta.
     #[error("its velocity left the number range")]
     VelocityRange,
+    /// A distortion or the logarithm of a volume reached 2^51 quanta.
+    #[error("its distortion left the number range")]
+    DistortionRange,
     /// One pair term (or the pull of gravity in one kick) reached 2^51 quanta or was not a number.
     #[error("one of its force or density terms left the number range")]
     TermRange,

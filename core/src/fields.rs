@@ -8,7 +8,7 @@
 //! Fields of the *state* are what a run is; *scratch* is computed from the state in every step and
 //! never stored or compared.
 
-use crate::number::Scale;
+use crate::number::{Scale, power_of_two};
 
 /// Place of the position in every model's list.
 pub const POSITION: usize = 0;
@@ -37,6 +37,10 @@ pub enum Quantum {
     Speed,
     /// [`Scale::density_quantum`].
     Density,
+    /// 2^-n of a pure number (distortions, relative densities).
+    Pure(i32),
+    /// One: numbers that count or name something.
+    Count,
     /// Nothing: the word holds a double. For scratch only.
     Real,
 }
@@ -49,7 +53,8 @@ impl Quantum {
             Self::Length => scale.length_quantum(),
             Self::Speed => scale.speed_quantum(),
             Self::Density => scale.density_quantum(),
-            Self::Real => 1.0,
+            Self::Pure(n) => power_of_two(-n),
+            Self::Count | Self::Real => 1.0,
         }
     }
 }

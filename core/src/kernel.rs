@@ -4,11 +4,17 @@
 //!
 //! - W(r) = α t⁴ (1 + 4q)                  \[1/m^D\]
 //! - W'(r)/r = -(20 α/h²) t³               \[1/m^(D+2)\]
+//! - h dW/dh = -D W - r W' = α t³ (20 q² - D (1 + 3q - 4q²))   \[1/m^D\]
+//! - (h/r) d²W/dr dh = (20 α/h²) t² ((D + 2) - (D + 5) q)      \[1/m^(D+2)\]
 //! - α = 7/(π h²) in 2D, 21/(2 π h³) in 3D
 //!
 //! Source: H. Wendland, Adv. Comput. Math. 4 (1995) 389. W'/r has no singularity at r = 0, so two
 //! particles on one point exert no force on each other. Both vanish at q = 1 faster than any
 //! rounding can see: whether a pair at the very edge is visited or not changes no bit.
+//!
+//! The last two say how a sum of W changes with the width of the kernel: Kincl, Peshkov, Pavelka &
+//! Klika, Appl. Math. Comput. 439 (2023) 127579, eqs. (43) to (46), whose h is half of this one;
+//! (44) is printed twice too large.
 //!
 //! Only `+ - * /` occur, in one written order; no power, no exponential.
 
@@ -24,6 +30,8 @@ pub struct WendlandC2 {
     value_factor: f64,
     /// -20 α/h², 1/m^(D+2).
     derivative_factor: f64,
+    /// D.
+    dimension: f64,
 }
 
 impl WendlandC2 {
@@ -40,6 +48,7 @@ impl WendlandC2 {
             inverse_support: unit / h,
             value_factor: alpha,
             derivative_factor: -20.0 * alpha / (h * h),
+            dimension: dimension as f64,
         }
     }
 
@@ -76,6 +85,23 @@ impl WendlandC2 {
     pub fn derivative_over_r_at<L: Lanes>(&self, q: L) -> L {
         let t = Self::t(q);
         q.splat(self.derivative_factor) * (t * t * t)
+    }
+
+    /// h dW/dh at this q, 1/m^D: how W changes where the kernel becomes wider.
+    #[inline(always)]
+    pub fn structural_at<L: Lanes>(&self, q: L) -> L {
+        let t = Self::t(q);
+        let squares = q.splat(20.0 + 4.0 * self.dimension) * (q * q);
+        let rest = q.splat(self.dimension) + q.splat(3.0 * self.dimension) * q;
+        q.splat(self.value_factor) * ((t * t * t) * (squares - rest))
+    }
+
+    /// The derivative of h dW/dh with respect to r, over r, at this q, 1/m^(D+2).
+    #[inline(always)]
+    pub fn structural_derivative_over_r_at<L: Lanes>(&self, q: L) -> L {
+        let t = Self::t(q);
+        let slope = q.splat(self.dimension + 2.0) - q.splat(self.dimension + 5.0) * q;
+        q.splat(-self.derivative_factor) * ((t * t) * slope)
     }
 
     #[inline(always)]

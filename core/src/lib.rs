@@ -34,6 +34,7 @@ pub mod fault;
 pub mod fields;
 pub mod integrator;
 pub mod kernel;
+pub mod lift;
 pub mod model;
 pub mod neighbours;
 pub mod number;

@@ -143,6 +143,21 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
         exec: &E,
     ) -> Result<(), Fault>;
 
+    /// The same integers, where no particle has moved since the model last had the particles
+    /// located: sums that depend on positions alone may still be in the scratch, and a model that
+    /// has such need not take them again. Whoever knows calls this one.
+    ///
+    /// # Errors
+    /// As [`Model::prepare`].
+    fn prepare_in_place<E: Executor>(
+        &self,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        self.prepare(stage, system, exec)
+    }
+
     /// Adds what was prepared: the impulses to the velocities, or the velocities to the positions.
     ///
     /// # Errors
@@ -257,6 +272,17 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
         match stage {
             Stage::Relax => Ok(()),
             shear => self.0.scheme().prepare(shear, system, exec),
+        }
+    }
+    fn prepare_in_place<E: Executor>(
+        &self,
+        stage: Stage,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<(), Fault> {
+        match stage {
+            Stage::Relax => Ok(()),
+            shear => self.0.scheme().prepare_in_place(shear, system, exec),
         }
     }
     fn apply<E: Executor>(

@@ -63,6 +63,23 @@ pub fn sqrt(x: f64) -> f64 {
     return libm::sqrt(x);
 }
 
+/// e^x from `+ - * /` alone, in one written order and so with the same bits everywhere: Taylor's
+/// series of x/16, squared four times. Within 2e-15 of e^x, relatively, for |x| <= 4.
+#[must_use]
+pub fn exp(x: f64) -> f64 {
+    let y = x * 0.0625;
+    let mut sum = 1.0;
+    let mut n = 14.0;
+    while n > 0.0 {
+        sum = 1.0 + y * sum / n;
+        n -= 1.0;
+    }
+    for _ in 0..4 {
+        sum *= sum;
+    }
+    sum
+}
+
 /// R(x), the only way into the state; `None` for |x| >= 2^51 and for a NaN.
 #[inline]
 #[must_use]

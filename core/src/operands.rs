@@ -4,7 +4,7 @@ use crate::number::Word;
 use crate::values::Values;
 
 /// Most fields that a point pass reads, and most that it writes.
-pub const MAX_OPERANDS: usize = 4;
+pub const MAX_OPERANDS: usize = 6;
 
 /// What a point pass works on, of some consecutive particles.
 #[derive(Debug)]

@@ -17,6 +17,8 @@ pub(crate) struct Held {
     prepared: Option<Stage>,
     /// What [`Model::refresh`] leaves.
     pub refreshed: bool,
+    /// Sums that depend on positions alone: no particle has moved since they were taken.
+    in_place: bool,
 }
 
 impl Held {
@@ -25,6 +27,7 @@ impl Held {
         Self {
             prepared: None,
             refreshed: true,
+            in_place: true,
         }
     }
 }
@@ -66,14 +69,20 @@ impl Group {
 
 /// An executor that takes many steps.
 pub(crate) trait Drive: Executor + Sized {
-    /// Leaves what [`Model::prepare`] leaves.
+    /// Leaves what [`Model::prepare`] leaves, or where no particle has moved
+    /// [`Model::prepare_in_place`].
     fn prepare<A: Arithmetic, M: Model<A, D>, const D: usize>(
         &self,
         model: &M,
         stage: Stage,
+        in_place: bool,
         system: &mut System<'_, A, D>,
     ) -> Result<(), Fault> {
-        model.prepare(stage, system, self)
+        if in_place {
+            model.prepare_in_place(stage, system, self)
+        } else {
+            model.prepare(stage, system, self)
+        }
     }
 
     /// Leaves what applying the stages in turn leaves.
@@ -106,9 +115,11 @@ pub(crate) fn advance<A: Arithmetic, M: Model<A, D>, E: Drive, const D: usize>(
     let mut all = all.peekable();
     while let Some((step, stage)) = all.next() {
         if held.prepared != Some(stage) {
-            *held = Held::default();
-            exec.prepare(model, stage, system)
+            let in_place = std::mem::take(held).in_place;
+            exec.prepare(model, stage, in_place, system)
                 .map_err(|fault| fault.at_step(step))?;
+            // A drift sums nothing, so after it there is nothing to be kept either.
+            held.in_place = in_place || matches!(stage, Stage::Kick(_) | Stage::Lift(_));
         }
         let mut group = Group {
             step,
@@ -120,7 +131,7 @@ pub(crate) fn advance<A: Arithmetic, M: Model<A, D>, E: Drive, const D: usize>(
         if matches!(stage, Stage::Kick(_)) {
             *held = Held {
                 prepared: Some(stage),
-                refreshed: true,
+                ..Held::refreshed()
             };
             let same = |(next, again): &(u64, Stage)| *again == stage && *next == step + 1;
             if let Some((next, _)) = all.next_if(same) {
@@ -134,7 +145,11 @@ pub(crate) fn advance<A: Arithmetic, M: Model<A, D>, E: Drive, const D: usize>(
             }
         }
         if group.drift.is_some() || !matches!(stage, Stage::Kick(_)) {
-            *held = Held::default();
+            let moved = group.drift.is_some() || matches!(stage, Stage::Drift(_));
+            *held = Held {
+                in_place: held.in_place && !moved,
+                ..Held::default()
+            };
         }
         exec.apply(model, group, system)?;
         let goes_on = all.peek().is_some_and(|(next, _)| *next == last);

@@ -3,11 +3,13 @@
 //! - [`mod@conformance`]: every executor against the core's plain step, for any model.
 //! - [`permitted`]: every error that a test allows, in one place, each with its reason. A test that
 //!   is not listed there compares bits.
+//! - [`bodies`]: small elastic bodies.
 //! - [`small`]: small systems in `heapless` vectors, the same recipe for every scheme, dimension
 //!   and arithmetic.
 //! - [`generator`]: numbers that look random and are the same everywhere.
 //! - [`program`]: scenes, players and runs in a line each.
 
+pub mod bodies;
 pub mod conformance;
 pub mod generator;
 pub mod permitted;

@@ -25,5 +25,6 @@ mod run_dam_break;
 mod run_faults;
 mod setup_errors;
 mod snapshot_bytes;
+mod solid;
 mod standard;
 mod wide_passes;

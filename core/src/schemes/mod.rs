@@ -1,3 +1,4 @@
 //! Models: a folder each.
 
+pub mod solid;
 pub mod wcsph;

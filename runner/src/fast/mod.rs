@@ -283,6 +283,7 @@ impl Drive for Fast {
         &self,
         model: &M,
         stage: Stage,
+        in_place: bool,
         system: &mut System<'_, A, D>,
     ) -> Result<(), Fault> {
         // In space the arguments of a strip's neighbourhood are too many to be kept in a cache.
@@ -304,7 +305,11 @@ impl Drive for Fast {
                 return water.short_impulses(system, self, duration);
             }
         }
-        model.prepare(stage, system, self)
+        if in_place {
+            model.prepare_in_place(stage, system, self)
+        } else {
+            model.prepare(stage, system, self)
+        }
     }
 
     fn apply<A: Arithmetic, M: Model<A, D>, const D: usize>(
