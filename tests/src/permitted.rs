@@ -80,3 +80,22 @@ pub const CORRECTED_DENSITY: f64 = 1e-9;
 /// A filtered velocity against the average in doubles, m/s: the quanta (2^-44) of up to a hundred
 /// rounded terms over a γ of at least 0.2, and the push of one step of 1e-15 s.
 pub const SHEPARD_AVERAGE: f64 = 1e-10;
+
+/// Work of the forces of a solid against the fall of its energy over 1e-4 spacings there and back,
+/// without the cubic term, relative: truncation (1e-4)⁴ times a fifth derivative, and rounding 1e-16
+/// of the energy over the 1e-4 of it that is released, in sums of a few hundred terms.
+pub const FORCE_OF_A_SOLID: f64 = 1e-8;
+
+/// The ratio of the errors of a lift by M and by M/2, which is 8 at third order: the next term,
+/// at |M| of 0.1.
+pub const ORDER_OF_A_LIFT: f64 = 0.4;
+
+/// |G - 1| of a body that has turned 1000 rad by steps of 0.01 rad: bounded by about a third of the
+/// square of the angle.
+pub const STRAIN_OF_A_ROTATION: f64 = 5e-5;
+
+/// The determinant after 30,000 lifts in words of 48 bits: half a quantum each, as a random walk.
+pub const DETERMINANT: f64 = 1e-11;
+
+/// e^x from its series against the library's, relative: sixteen times the rounding of one series.
+pub const EXPONENTIAL: f64 = 5e-15;

@@ -58,6 +58,37 @@ fn derivative_over_r_is_the_derivative_of_the_value_over_r() {
     }
 }
 
+/// What stands for the change of a sum with the width of the kernel, against differences of W in h
+/// and in r.
+#[test]
+fn structural_functions_are_the_derivatives_by_the_support() {
+    for dimension in [2, 3] {
+        let w = kernel(dimension);
+        let d = 1e-5;
+        let [wider, narrower] =
+            [1.0 + d, 1.0 - d].map(|f| WendlandC2::new(dimension, f * SUPPORT, 1.0));
+        for k in 5..=110 {
+            let r = f64::from(k) * 0.01 * SUPPORT;
+            let structural = w.structural_at(w.q(r));
+            let numerical = (wider.value(r) - narrower.value(r)) / (2.0 * d);
+            let error = (structural - numerical).abs() / w.value(0.0);
+            assert!(
+                error < permitted::KERNEL_DERIVATIVE,
+                "{dimension} {r} {error}"
+            );
+
+            let slope = w.structural_derivative_over_r_at(w.q(r));
+            let numerical =
+                (wider.derivative_over_r(r) - narrower.derivative_over_r(r)) / (2.0 * d);
+            let error = (slope - numerical).abs() / w.value(0.0) * (SUPPORT * SUPPORT);
+            assert!(
+                error < permitted::KERNEL_DERIVATIVE,
+                "{dimension} {r} {error}"
+            );
+        }
+    }
+}
+
 #[test]
 fn it_vanishes_at_the_support_and_beyond() {
     for dimension in [2, 3] {
@@ -65,6 +96,8 @@ fn it_vanishes_at_the_support_and_beyond() {
         for r in [0.25, 0.25f64.next_up(), 0.3, 1e9] {
             assert_eq!(w.value(r), 0.0);
             assert_eq!(w.derivative_over_r(r), 0.0);
+            assert_eq!(w.structural_at(w.q(r)), 0.0);
+            assert_eq!(w.structural_derivative_over_r_at(w.q(r)), 0.0);
         }
         assert!(w.value(0.25f64.next_down()) > 0.0);
         assert!(w.derivative_over_r(0.25f64.next_down()) < 0.0);

@@ -3,9 +3,11 @@
 
 use loschmidt_core::number::{power_of_two, round};
 use loschmidt_core::pairs::{PairPass, Parity, separation, term_count};
+use loschmidt_core::schemes::solid::{self, ShearEnergy, Solid};
 use loschmidt_core::schemes::wcsph::{AntiClump, Wall, Water};
 use loschmidt_core::values::{Symmetric, Values};
 use loschmidt_core::{Fixed, Parameters, Scale};
+use loschmidt_tests::bodies::{free_body, material};
 use loschmidt_tests::small::{conservative, water};
 use proptest::prelude::*;
 
@@ -14,12 +16,29 @@ trait Check<const D: usize> {
     fn check<P: PairPass<D>>(&mut self, name: &str, pass: &P) -> Result<(), TestCaseError>;
 }
 
-/// Every pass of weakly compressible water that vanishes at its reach by itself.
-fn every_pass<const D: usize>(
-    water: &Water<Fixed, D>,
+/// One model of each kind with the same lengths and units.
+#[derive(Debug)]
+struct Models<const D: usize> {
+    water: Water<Fixed, D>,
+    solid: Solid<Fixed, D>,
+    /// Of a kick, s.
     duration: f64,
+}
+
+/// Every pass that vanishes at its reach by itself.
+fn every_pass<const D: usize>(
+    models: &Models<D>,
     check: &mut impl Check<D>,
 ) -> Result<(), TestCaseError> {
+    let Models {
+        water,
+        solid,
+        duration,
+    } = models;
+    let duration = *duration;
+    check.check("velocity gradient", &solid.gradient_pass())?;
+    check.check("moments", &solid.moments_pass())?;
+    check.check("force of a solid", &solid.force_pass())?;
     check.check("density", &water.density_pass())?;
     check.check("pressure", &water.pressure_pass())?;
     check.check("continuity", &water.continuity_pass(duration))?;
@@ -37,8 +56,8 @@ struct Pair<const D: usize> {
     /// Of the reach.
     distance: f64,
     /// Largest magnitude of each number, and the numbers in units of it.
-    largest: [f64; 8],
-    read: [[f64; 8]; 2],
+    largest: [f64; 12],
+    read: [[f64; 12]; 2],
 }
 
 impl<const D: usize> Pair<D> {
@@ -93,6 +112,8 @@ impl<const D: usize> Check<D> for Vanishes<'_, D> {
     fn check<P: PairPass<D>>(&mut self, name: &str, pass: &P) -> Result<(), TestCaseError> {
         let x = self.0.separation(pass);
         let (i, j) = (self.0.read::<P>(0), self.0.read::<P>(1));
+        // Only sums whose bound is in range are taken by rows.
+        let in_range = pass.bound(&self.0.largest::<P>()) < power_of_two(51);
         for factor in [1.0, 1.0f64.next_up(), 1.000_001, 2.0, 1e6, 1e36] {
             // A row holds numbers of other pairs too: x need not be of this length.
             let argument = pass.argument(factor * pass.reach_squared());
@@ -102,14 +123,8 @@ impl<const D: usize> Check<D> for Vanishes<'_, D> {
                 // At the reach itself 1/h, rounded, leaves a power of 10^-16.
                 let exact = factor < 1.000_001 || number == 0.0;
                 prop_assert!(exact, "{name}, number {k} at {factor}: {number:e}");
-                prop_assert_eq!(
-                    round(number),
-                    Some(0),
-                    "{}, number {} at {}",
-                    name,
-                    k,
-                    factor
-                );
+                let nothing = !in_range || round(number) == Some(0);
+                prop_assert!(nothing, "{name}, number {k} at {factor}: {number:e}");
             }
         }
         Ok(())
@@ -139,7 +154,7 @@ impl<const D: usize> Check<D> for Exchanged<'_, D> {
     }
 }
 
-fn model<const D: usize>() -> impl Strategy<Value = (Water<Fixed, D>, f64)> {
+fn models<const D: usize>() -> impl Strategy<Value = Models<D>> {
     let sizes = (0.05..2.0f64, 0.1..=1.0f64, 0.1..1e5f64);
     let units = prop::array::uniform3(-3..6i32);
     (sizes, units, 1e-6..1e-1f64).prop_map(|((support_radius, near, pressure), units, duration)| {
@@ -157,7 +172,19 @@ fn model<const D: usize>() -> impl Strategy<Value = (Water<Fixed, D>, f64)> {
             mass: 1000.0 * (support_radius / 3.0).powi(D as i32),
             ..water()
         };
-        (Water::new(parameters).expect("in range"), duration)
+        let spacing = support_radius / 3.0;
+        let solid = Solid::new(solid::Parameters {
+            support_radius,
+            particle_spacing: spacing,
+            time_step: duration,
+            scale: parameters.scale,
+            ..free_body(material(ShearEnergy::Dpr))
+        });
+        Models {
+            water: Water::new(parameters).expect("in range"),
+            solid: solid.expect("in range"),
+            duration,
+        }
     })
 }
 
@@ -175,10 +202,10 @@ fn pair<const D: usize>() -> impl Strategy<Value = Pair<D>> {
     (
         prop::array::uniform::<_, D>(-1.0..1.0f64),
         distance,
-        prop::array::uniform8(largest),
+        prop::array::uniform12(largest),
         [
-            prop::array::uniform8(one.clone()),
-            prop::array::uniform8(one),
+            prop::array::uniform12(one.clone()),
+            prop::array::uniform12(one),
         ],
     )
         .prop_filter("a direction", |(x, ..)| x.iter().any(|x| x.abs() > 0.01))
@@ -194,45 +221,45 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
     #[test]
-    fn no_term_exceeds_its_bound_in_the_plane((water, dt) in model::<2>(), pair in pair()) {
-        every_pass(&water, dt, &mut Bounded(&pair))?;
+    fn no_term_exceeds_its_bound_in_the_plane(models in models::<2>(), pair in pair()) {
+        every_pass(&models, &mut Bounded(&pair))?;
     }
 
     #[test]
-    fn no_term_exceeds_its_bound_in_space((water, dt) in model::<3>(), pair in pair()) {
-        every_pass(&water, dt, &mut Bounded(&pair))?;
+    fn no_term_exceeds_its_bound_in_space(models in models::<3>(), pair in pair()) {
+        every_pass(&models, &mut Bounded(&pair))?;
     }
 
     #[test]
     fn terms_vanish_at_their_reach_and_beyond_in_the_plane(
-        (water, dt) in model::<2>(),
+        models in models::<2>(),
         pair in pair(),
     ) {
-        every_pass(&water, dt, &mut Vanishes(&pair))?;
+        every_pass(&models, &mut Vanishes(&pair))?;
     }
 
     #[test]
     fn terms_vanish_at_their_reach_and_beyond_in_space(
-        (water, dt) in model::<3>(),
+        models in models::<3>(),
         pair in pair(),
     ) {
-        every_pass(&water, dt, &mut Vanishes(&pair))?;
+        every_pass(&models, &mut Vanishes(&pair))?;
     }
 
     #[test]
     fn the_partner_receives_what_the_parity_says_in_the_plane(
-        (water, dt) in model::<2>(),
+        models in models::<2>(),
         pair in pair(),
     ) {
-        every_pass(&water, dt, &mut Exchanged(&pair))?;
+        every_pass(&models, &mut Exchanged(&pair))?;
     }
 
     #[test]
     fn the_partner_receives_what_the_parity_says_in_space(
-        (water, dt) in model::<3>(),
+        models in models::<3>(),
         pair in pair(),
     ) {
-        every_pass(&water, dt, &mut Exchanged(&pair))?;
+        every_pass(&models, &mut Exchanged(&pair))?;
     }
 }
 
