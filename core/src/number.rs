@@ -63,17 +63,25 @@ pub fn sqrt(x: f64) -> f64 {
     return libm::sqrt(x);
 }
 
-/// e^x from `+ - * /` alone, in one written order and so with the same bits everywhere: Taylor's
-/// series of x/16, squared four times. Within 2e-15 of e^x, relatively, for |x| <= 4.
+/// 1/n! for n up to 12.
+const INVERSE_FACTORIALS: [f64; 13] = {
+    let (mut table, mut factorial, mut n) = ([1.0; 13], 1.0, 1);
+    while n < 13 {
+        factorial *= n as f64;
+        table[n] = 1.0 / factorial;
+        n += 1;
+    }
+    table
+};
+
+/// e^x from `+ *` alone, in one written order and so with the same bits everywhere: Taylor's series
+/// of x/16, squared four times. Within 5e-15 of e^x, relatively, for |x| <= 4.
+#[inline]
 #[must_use]
 pub fn exp(x: f64) -> f64 {
     let y = x * 0.0625;
-    let mut sum = 1.0;
-    let mut n = 14.0;
-    while n > 0.0 {
-        sum = 1.0 + y * sum / n;
-        n -= 1.0;
-    }
+    let [first @ .., last] = INVERSE_FACTORIALS;
+    let mut sum = first.iter().rev().fold(last, |sum, c| sum * y + c);
     for _ in 0..4 {
         sum *= sum;
     }

@@ -22,7 +22,7 @@
 //! Source: Kincl, Peshkov, Pavelka & Klika, Appl. Math. Comput. 439 (2023) 127579, section 3.
 
 use super::energy;
-use super::fields::{FIELDS, GRADIENT, MOMENTS, one, one_rate};
+use super::fields::{FIELDS, GRADIENT, MOMENTS, ONE, ONE_RATE};
 use super::parameters::Parameters;
 use super::passes::{ForcePass, GradientPass, MomentsPass, Reach};
 use super::updates::{
@@ -110,7 +110,7 @@ impl<A: Arithmetic, C: Composition, const D: usize> Elastic<A, C, D> {
     #[must_use]
     pub fn gradient_pass(&self) -> GradientPass {
         let p = &self.parameters;
-        let units = p.scale.length_quantum() * p.scale.speed_quantum() * one_rate();
+        let units = p.scale.length_quantum() * p.scale.speed_quantum() * ONE_RATE;
         GradientPass {
             reach: self.reach,
             rate: (p.time_step * p.volume()) * units,
@@ -124,8 +124,8 @@ impl<A: Arithmetic, C: Composition, const D: usize> Elastic<A, C, D> {
         let quantum = p.scale.length_quantum();
         MomentsPass {
             gradient: self.gradient_pass(),
-            moment: (p.volume() * one()) * (quantum * quantum),
-            volume: p.volume() * one(),
+            moment: (p.volume() * ONE) * (quantum * quantum),
+            volume: p.volume() * ONE,
         }
     }
 

@@ -7,7 +7,7 @@
 //!
 //! Held particles count: they store energy like others.
 
-use super::fields::{BODY, CLUMPING, DENSITY, DISTORTION, LOG_VOLUME, one};
+use super::fields::{BODY, CLUMPING, DENSITY, DISTORTION, LOG_VOLUME, ONE};
 use super::material::{Material, ShearEnergy, whole_metric};
 use super::matrix::{Matrix, determinant_of, trace};
 use super::parameters::Parameters;
@@ -69,14 +69,14 @@ struct Particle<const D: usize> {
 
 impl<const D: usize> Particle<D> {
     fn of<A: Arithmetic>(p: &Parameters<D>, set: &SetView<'_, A, D>, place: usize) -> Self {
-        let scalar = |field: usize| set.words(field)[place].quanta() / one();
+        let scalar = |field: usize| set.words(field)[place].quanta() / ONE;
         let rows = set.vectors::<A::Word, D>(DISTORTION);
         let body = set.words(BODY)[place].whole_quanta() as usize;
         Self {
             material: p.materials[body],
             density: scalar(DENSITY),
             clumping: scalar(CLUMPING),
-            distortion: core::array::from_fn(|i| rows[place * D + i].map(|x| x.quanta() / one())),
+            distortion: core::array::from_fn(|i| rows[place * D + i].map(|x| x.quanta() / ONE)),
             log_volume: scalar(LOG_VOLUME),
         }
     }

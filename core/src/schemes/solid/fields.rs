@@ -3,7 +3,6 @@
 use crate::fields::{
     Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Rank, Role, TimeParity, VELOCITY_FIELD,
 };
-use crate::number::power_of_two;
 
 /// A, unimodular in the reversible scheme; row by row.
 pub const DISTORTION: usize = 3;
@@ -39,14 +38,9 @@ pub(super) const SUM: Quantum = Quantum::Pure(48);
 pub(super) const RATE: Quantum = Quantum::Pure(50);
 
 /// 1 in quanta of [`STRAIN`] and [`SUM`].
-pub(super) fn one() -> f64 {
-    power_of_two(48)
-}
-
+pub(super) const ONE: f64 = (1u64 << 48) as f64;
 /// 1 in quanta of [`RATE`].
-pub(super) fn one_rate() -> f64 {
-    power_of_two(50)
-}
+pub(super) const ONE_RATE: f64 = (1u64 << 50) as f64;
 
 const fn even(name: &'static str, rank: Rank, quantum: Quantum) -> Field {
     Field::state(name, rank, quantum, TimeParity::Even)

@@ -2,7 +2,7 @@
 
 use super::fields::{
     BODY, CLUMPING, CLUMPING_CONSTANT, DENSITY, DENSITY_CONSTANT, DISTORTION, GRADIENT, HELD,
-    INVERSE, LOG_VOLUME, MOMENTS, STRESS, one, one_rate,
+    INVERSE, LOG_VOLUME, MOMENTS, ONE, ONE_RATE, STRESS,
 };
 use super::material::{Material, whole_metric};
 use super::matrix::{Matrix, damped_inverse, identity, inverse, product, trace};
@@ -136,7 +136,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Begin<D> {
         write: &mut Unstrained<A::Word, D>,
     ) -> Result<(), Fault> {
         let part = self.parameters.part_of(id);
-        let one = one() as i64;
+        let one = ONE as i64;
         write.distortion = identity::<D>()
             .map(|row| row.map(|x| A::Word::from_whole_quanta(if x > 0.0 { one } else { 0 })));
         write.log_volume = A::Word::ZERO;
@@ -162,7 +162,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for SetConstants {
         sums: &Moments<A::Word, D>,
         write: &mut Constants<A::Word, D>,
     ) -> Result<(), Fault> {
-        let one = A::Word::from_whole_quanta(one() as i64);
+        let one = A::Word::from_whole_quanta(ONE as i64);
         write.density = one.plus(sums.density.negated());
         write.clumping = sums.clumping.negated();
         Ok(())
@@ -189,7 +189,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Resolve {
         write.density = sums.density.plus(read.constants.density);
         write.clumping = sums.clumping.plus(read.constants.clumping);
         let moment = Symmetric {
-            rows: scaled(&sums.moment.rows, 1.0 / one()),
+            rows: scaled(&sums.moment.rows, 1.0 / ONE),
         };
         let rows = damped_inverse(&moment).rows;
         let finite = rows.as_flattened().iter().all(|x| x.is_finite());
@@ -223,7 +223,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Stresses {
         read: &Strained<A::Word, D>,
         write: &mut Stress<A::Word, D>,
     ) -> Result<(), Fault> {
-        let unit = 1.0 / one();
+        let unit = 1.0 / ONE;
         let material = &self.materials[read.body.whole_quanta() as usize];
         let distortion = scaled(&read.shape.distortion, unit);
         let metric = whole_metric(&distortion, read.shape.log_volume.quanta() * unit);
@@ -280,7 +280,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Fall<A::Word, D> {
 /// -c dt L of a particle.
 #[inline(always)]
 fn displacement<W: Word, const D: usize>(flow: &Flow<W, D>, c: f64) -> Matrix<D> {
-    let gradient = scaled(&flow.gradient, -c / one_rate());
+    let gradient = scaled(&flow.gradient, -c / ONE_RATE);
     product(&gradient, &flow.inverse.rows.map(|row| row.map(Word::real)))
 }
 
@@ -312,7 +312,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Advance {
         for row in &mut write.distortion {
             inside &= lift(row, &m);
         }
-        let log_volume = write.log_volume.add_rounded(mean * one());
+        let log_volume = write.log_volume.add_rounded(mean * ONE);
         inside &= log_volume.is_some_and(Quantity::in_range);
         write.log_volume = log_volume.unwrap_or(write.log_volume);
         if inside {
