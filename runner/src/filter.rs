@@ -34,7 +34,7 @@ fn shepard_in<const D: usize>(scene: &Scene, frame: &Frame) -> Vec<[f64; 3]> {
         .map(|((x, u), rho)| (first(x), frame.particle_mass / rho, *u))
         .collect();
     if scene.water.wall_model == WallModel::Dummy {
-        let volume = frame.particle_mass / scene.fluid.reference_density;
+        let volume = frame.particle_mass / scene.reference_density();
         let walls = frame.wall_position.iter();
         sources.extend(walls.map(|x| (first(x), volume, [0.0; 3])));
     }

@@ -73,6 +73,8 @@ impl SavedState {
             fluid: particles.clone().map(|n| self.position(n)).collect(),
             fluid_velocity: particles.map(|n| self.velocity(n)).collect(),
             wall: walls.map(|words| self.in_si(words, quantum)).collect(),
+            // Bodies are fields of the state.
+            parts: Vec::new(),
         }
     }
 

@@ -1,8 +1,10 @@
 //! From a scene to a simulation: the parameters of the core, its units, and the memory it takes.
 
 mod limits;
+mod solids;
 
 pub use limits::{fixed_limits, force_limit};
+pub use solids::solid_parameters;
 
 use crate::engine::simulate;
 use crate::isc;
@@ -12,9 +14,10 @@ use crate::saved::ArithmeticKind;
 use crate::scene::{self, InitialState, Scene, Vector3};
 use crate::simulation::{BuildError, Options, Simulation};
 use crate::storage;
-use loschmidt_core::fields::Field;
+use loschmidt_core::fields::{Field, Side, state_fields};
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
 use loschmidt_core::model::{Measure, Model};
+use loschmidt_core::schemes::solid::{Midpoint, Solid};
 use loschmidt_core::schemes::wcsph::{
     AntiClump, Central, DensityCorrection, Filter, Gravity, StateEquation, Wall,
 };
@@ -69,7 +72,7 @@ macro_rules! build_models {
     (
         $(
             $(#[$doc:meta])*
-            $variant:ident = $word:literal, keys $family:ident, made by $made:path,
+            $variant:ident = $word:literal, keys $family:ident, made by $made:path, from $from:ident,
             except [$($exclusion:expr)?];
         )+
     ) => {
@@ -78,10 +81,9 @@ macro_rules! build_models {
             initial: &InitialState,
             options: &Options,
         ) -> Result<Box<dyn Simulation>, BuildError> {
-            let parameters = parameters::<D>(scene, initial);
             match scene.model {
                 $(scene::Model::$variant => {
-                    let model = $made(parameters)?;
+                    let model = $made($from::<D>(scene, initial))?;
                     simulate::<A, _, D>(model, initial, options)
                 })+
                 scene::Model::Own(name) => Err(BuildError::UnknownModel(name)),
@@ -94,17 +96,20 @@ for_each_model!(build_models);
 /// What is recorded of a particle of the scene besides position and velocity.
 #[must_use]
 pub fn columns(scene: &Scene) -> &'static [Measure] {
-    match own_of(scene) {
-        Some(model) => model.columns,
-        None => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
+    match (own_of(scene), scene.solid, scene.dimension) {
+        (Some(model), ..) => model.columns,
+        (None, None, _) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
+        (None, Some(_), scene::Dimension::Two) => <Solid<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
+        (None, Some(_), scene::Dimension::Three) => <Solid<Fixed, 3> as Model<Fixed, 3>>::COLUMNS,
     }
 }
 
 /// What a particle of the scene consists of.
 fn fields(scene: &Scene) -> &'static [Field] {
-    match own_of(scene) {
-        Some(model) => model.fields,
-        None => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
+    match (own_of(scene), scene.solid) {
+        (Some(model), _) => model.fields,
+        (None, None) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
+        (None, Some(_)) => <Solid<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
     }
 }
 
@@ -120,13 +125,14 @@ fn own_of(scene: &Scene) -> Option<OwnModel> {
 pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Parameters<D> {
     let bounds = Bounds::of(initial);
     let particles = initial.fluid.len() + initial.wall.len();
+    let fluid = fluid(scene);
     Parameters {
         support_radius: scene.support_radius(),
         time_step: scene.time_step(),
         mass: scene.particle_mass(),
-        reference_density: scene.fluid.reference_density,
-        sound_speed: scene.fluid.sound_speed,
-        state_equation: match scene.fluid.equation_of_state {
+        reference_density: fluid.reference_density,
+        sound_speed: fluid.sound_speed,
+        state_equation: match fluid.equation_of_state {
             scene::EquationOfState::Tait => StateEquation::Tait,
             scene::EquationOfState::Linear => StateEquation::Linear,
         },
@@ -145,9 +151,9 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             }),
         },
         wall: wall(scene),
-        anti_clump: (scene.fluid.anti_clump_pressure > 0.0).then_some(AntiClump {
-            pressure: scene.fluid.anti_clump_pressure,
-            support_radius: scene.fluid.anti_clump_radius * scene.particle_spacing,
+        anti_clump: (fluid.anti_clump_pressure > 0.0).then_some(AntiClump {
+            pressure: fluid.anti_clump_pressure,
+            support_radius: fluid.anti_clump_radius * scene.particle_spacing,
         }),
         filter_every: scene.water.filter_every,
         integrator: integrator(scene.integrator),
@@ -155,12 +161,24 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             // A drop that is smaller than its kernel must still leave room for the kernel.
             bounds.farthest.max(scene.support_radius()),
             // A flow that begins faster than its sound needs room for its speed.
-            scene.fluid.sound_speed.max(fastest(initial)),
-            scene.fluid.reference_density,
+            fluid.sound_speed.max(fastest(initial)),
+            fluid.reference_density,
         ),
         extent: first(bounds.extent),
         max_buckets: max_buckets(particles),
     }
+}
+
+/// The material of a scene of water. Other scenes have none: what stands for it is refused by every
+/// model.
+fn fluid(scene: &Scene) -> scene::Fluid {
+    scene.fluid.unwrap_or(scene::Fluid {
+        reference_density: f64::NAN,
+        sound_speed: f64::NAN,
+        equation_of_state: scene::EquationOfState::Tait,
+        anti_clump_pressure: 0.0,
+        anti_clump_radius: 0.5,
+    })
 }
 
 /// A scene's integrator as a row of the core's table.
@@ -240,15 +258,27 @@ pub fn estimated_bytes(scene: &Scene) -> u64 {
     let buckets = 2 * max_buckets((fluid + walls) as usize) as u64;
     let system = storage::bytes(fields(scene), dimension, fluid, walls, buckets);
     let initial = 48 * fluid + 24 * walls;
-    let axes = dimension as u64;
-    let saved = 3 * 8 * ((2 * axes + 2) * fluid + (axes + 1) * walls);
+    let saved = 3 * saved_bytes(fields(scene), dimension, fluid, walls);
     let frame = 72 * fluid + 24 * walls;
     let correction = match scene.water.density_correction {
-        scene::DensityCorrection::Isc => isc::estimated_bytes(axes, scene.support, fluid),
+        scene::DensityCorrection::Isc => {
+            isc::estimated_bytes(dimension as u64, scene.support, fluid)
+        }
         scene::DensityCorrection::Constant | scene::DensityCorrection::None => 0,
     };
     // What the correction takes is given back before the rest is taken.
     initial + correction.max(system + saved + frame)
+}
+
+/// Bytes of a saved state: every word of the state, and an id for each particle.
+fn saved_bytes(fields: &'static [Field], dimension: usize, fluid: u64, walls: u64) -> u64 {
+    let words = |side| {
+        let fields = state_fields(fields, side);
+        fields
+            .map(|(_, field)| field.words(side, dimension) as u64)
+            .sum::<u64>()
+    };
+    8 * ((words(Side::Particles) + 1) * fluid + words(Side::Walls) * walls)
 }
 
 /// Bytes of memory that this machine can still give, where it can be told.

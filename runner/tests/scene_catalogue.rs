@@ -50,9 +50,12 @@ fn the_dam_break_has_the_parameters_of_table_1() {
     assert_eq!(scene.particle_spacing, 0.005);
     assert_eq!(scene.support, 3.0);
     assert_eq!(scene.step, StepRule::Cfl(0.2));
-    assert_eq!(scene.fluid.reference_density, 1000.0);
-    assert_eq!(scene.fluid.sound_speed, 120.0);
-    assert_eq!(scene.fluid.equation_of_state, EquationOfState::Tait);
+    assert_eq!(scene.fluid.unwrap().reference_density, 1000.0);
+    assert_eq!(scene.fluid.unwrap().sound_speed, 120.0);
+    assert_eq!(
+        scene.fluid.unwrap().equation_of_state,
+        EquationOfState::Tait
+    );
     assert_eq!(scene.gravity.uniform, [0.0, -9.8, 0.0]);
     let wall = WallPotential {
         energy: 196.0,
@@ -154,10 +157,10 @@ fn the_gresho_vortex_has_the_parameters_of_table_3() {
     assert_eq!(scene.particle_spacing, 0.01);
     assert_eq!(scene.support, 3.0);
     assert_eq!(scene.step, StepRule::Cfl(0.1));
-    assert_eq!(scene.fluid.reference_density, 1.0);
-    assert_eq!(scene.fluid.sound_speed, 20.0);
-    assert_eq!(scene.fluid.anti_clump_pressure, 10.0);
-    assert_eq!(scene.fluid.anti_clump_radius, 0.5);
+    assert_eq!(scene.fluid.unwrap().reference_density, 1.0);
+    assert_eq!(scene.fluid.unwrap().sound_speed, 20.0);
+    assert_eq!(scene.fluid.unwrap().anti_clump_pressure, 10.0);
+    assert_eq!(scene.fluid.unwrap().anti_clump_radius, 0.5);
     assert_eq!(scene.water.filter_every, 30);
     assert_eq!(scene.water.wall_model, WallModel::Dummy);
     let state = scene.initial_state().expect("a state");

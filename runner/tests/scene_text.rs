@@ -38,7 +38,7 @@ fn absent_keys_have_their_defaults_and_whole_numbers_are_numbers() {
     assert_eq!(scene.support, 3.0);
     assert_eq!(scene.turnaround, Some(1.0));
     assert_eq!(scene.end_time(), 2.0);
-    assert_eq!(scene.fluid.reference_density, 1000.0);
+    assert_eq!(scene.fluid.unwrap().reference_density, 1000.0);
     assert_eq!(scene.model, Model::Symplectic);
     assert_eq!(scene.integrator, Integrator::StormerVerlet);
     assert_eq!(scene.regions[0].lattice, Some(LatticeKind::Square));
@@ -62,7 +62,7 @@ fn overrides_reach_every_key() {
             "end=5",
         ],
     );
-    assert_eq!(scene.fluid.sound_speed, 60.0);
+    assert_eq!(scene.fluid.unwrap().sound_speed, 60.0);
     assert_eq!(scene.gravity.uniform, [0.0, -1.6, 0.0]);
     assert_eq!(scene.model, Model::Standard);
     assert_eq!(scene.water.density_correction, DensityCorrection::None);

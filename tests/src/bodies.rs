@@ -80,6 +80,7 @@ pub fn block<const D: usize>(counts: [usize; D]) -> InitialState {
         fluid_velocity: vec![[0.0; 3]; fluid.len()],
         fluid,
         wall: Vec::new(),
+        parts: Vec::new(),
     }
 }
 

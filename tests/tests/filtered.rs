@@ -202,7 +202,7 @@ fn the_passive_filter_averages_a_copy_and_leaves_the_state_alone() {
             add(y, mass / rho, u);
         }
         for y in &frame.wall_position {
-            add(y, mass / scene.fluid.reference_density, &[0.0; 3]);
+            add(y, mass / scene.reference_density(), &[0.0; 3]);
         }
         for d in 0..2 {
             let error = (found[d] - sum[d] / gamma).abs();

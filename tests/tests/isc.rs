@@ -131,7 +131,7 @@ fn first_error(scene: &Scene, options: Options) -> f64 {
         .initial_state()
         .unwrap_or_else(|error| panic!("{error}"));
     let mut player = Player::new(scene.clone(), initial, options).expect("a simulation");
-    let rho0 = scene.fluid.reference_density;
+    let rho0 = scene.reference_density();
     let frame = player.frame().expect("densities");
     let density = frame.column("density").expect("a column");
     let off = density.iter().map(|rho| (rho / rho0 - 1.0).abs());

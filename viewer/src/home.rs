@@ -124,12 +124,12 @@ impl Home {
             name: scene.name.clone(),
             dimension,
             spacing,
-            reference_density: scene.fluid.reference_density,
-            sound_speed: scene.fluid.sound_speed,
+            reference_density: scene.reference_density(),
+            sound_speed: scene.sound_speed(),
             speed: if speed > 0.0 {
                 speed
             } else {
-                0.1 * scene.fluid.sound_speed
+                0.1 * scene.sound_speed()
             },
             up,
             position: frame.position.clone(),

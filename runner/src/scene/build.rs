@@ -5,13 +5,15 @@ use super::check::{check, dimension, family};
 use super::declare::Keys;
 use super::error::SceneError;
 use super::model::Model;
-use super::regions::require_fluid;
+use super::regions::require_movers;
 use super::schema::ValueType;
 use super::source::is_name_character;
 use super::spec::{SceneSpec, WrittenValue};
 use super::types::{Scene, TOP, whole_steps};
+use super::values::{as_table, elements};
 use super::wcsph::WallModel;
 use super::words::{Dimension, RegionKind};
+use loschmidt_core::schemes::solid::{MAX_BODIES, MAX_PARTS};
 
 /// The most steps of a leg; every count below it is an exact f64.
 const MOST_STEPS: u64 = 1 << 48;
@@ -22,12 +24,13 @@ pub(super) fn build(spec: &SceneSpec) -> Result<Scene, SceneError> {
     let dimension = dimension(&spec.root).unwrap_or(Dimension::Two);
     let mut builder = Builder::new(spec, dimension, family(&spec.root), check(spec));
     builder.require_tables(top);
-    require_fluid(&mut builder, top);
+    require_movers(&mut builder, top);
     let mut scene = Scene::read(&mut builder, top);
     name(&mut builder, top, &mut scene, &spec.stem);
     wall(&mut builder, top, &scene);
     times(&mut builder, top, &scene);
     exclusions(&mut builder, top, scene.model);
+    bodies(&mut builder, top, &scene);
     builder.finish(scene)
 }
 
@@ -70,6 +73,45 @@ fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
                 "or set `wall_model` to \"dummy\" or \"none\"".to_owned(),
             ],
         );
+    }
+}
+
+/// Bodies: not too many, one lattice each, and no forces that solids do not know.
+fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
+    if scene.solid.is_none() {
+        return;
+    }
+    if let Some(entry) = top.table.get("gravity")
+        && scene.gravity.central.is_some()
+    {
+        builder.conflict(
+            "`gravity.central` does not go with solids".to_owned(),
+            entry.key,
+            "write `gravity.uniform`, or remove it".to_owned(),
+        );
+    }
+    let Some(entry) = top.table.get("region") else {
+        return;
+    };
+    let (numbers, count) = scene.bodies();
+    if scene.regions.len() > MAX_PARTS || count > MAX_BODIES {
+        builder.out_of_range(
+            format!("{} regions of {count} bodies", scene.regions.len()),
+            entry.key,
+            format!("allowed: at most {MAX_PARTS} regions and {MAX_BODIES} bodies"),
+        );
+    }
+    for (number, (region, node)) in scene.regions.iter().zip(elements(&entry.node)).enumerate() {
+        let first = numbers.iter().position(|body| *body == numbers[number]);
+        let owner = first.map_or(region, |first| &scene.regions[first]);
+        let written = as_table(node).and_then(|table| table.get("lattice"));
+        if let Some(written) = written.filter(|_| region.lattice != owner.lattice) {
+            builder.conflict(
+                "the regions of a body have one lattice, that of its first region".to_owned(),
+                written.node.span,
+                "remove it, or give the region a `body` of its own".to_owned(),
+            );
+        }
     }
 }
 

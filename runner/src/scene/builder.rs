@@ -200,10 +200,7 @@ impl<'a> Builder<'a> {
 
     /// Whether the scene's model has the key; a refused model has every key.
     fn has(&self, key: &SceneKey) -> bool {
-        match (key.family, self.family) {
-            (Some(owner), Some(family)) => owner == family,
-            _ => true,
-        }
+        key.exists_for(self.family)
     }
 
     /// A number; NaN stands for one that was refused or is absent without a default.
@@ -234,6 +231,25 @@ impl<'a> Builder<'a> {
             WrittenValue::Text(text) => Some(text),
             _ => None,
         }
+    }
+
+    /// True or false; false stands for an absent one.
+    pub fn flag(&mut self, here: Here<'a>, name: &str) -> bool {
+        let entry = self.entry(here, name);
+        matches!(
+            entry.map(|entry| &entry.node.value),
+            Some(WrittenValue::Boolean(true))
+        )
+    }
+
+    /// Whether the scene may have a key, by its dimension and its model.
+    pub fn may_have(&self, key: &SceneKey) -> bool {
+        key.exists_in(Some(self.dimension)) && self.has(key)
+    }
+
+    /// Whether the scene's model is one of this family; a refused model is of every family.
+    pub fn is_of(&self, family: Family) -> bool {
+        self.family.is_none_or(|own| own == family)
     }
 
     /// A word; `None` when it was refused or is absent without a default.

@@ -60,4 +60,28 @@ const ENTRIES: &[CatalogueEntry] = &[
         citation: "after footnote 8 of Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593",
         text: include_str!("../../scenes/kepler-ring.toml"),
     },
+    CatalogueEntry {
+        name: "beryllium-plate",
+        title: "a free plate of beryllium rings, and is un-rung after one period",
+        citation: "Kincl et al., Appl. Math. Comput. 439 (2023) 127579, section 4.1",
+        text: include_str!("../../scenes/beryllium-plate.toml"),
+    },
+    CatalogueEntry {
+        name: "twisting-column",
+        title: "a rubber column on a fixed foot twists by a whole turn, and untwists",
+        citation: "Kincl et al., Appl. Math. Comput. 439 (2023) 127579, section 4.2",
+        text: include_str!("../../scenes/twisting-column.toml"),
+    },
+    CatalogueEntry {
+        name: "colliding-rings",
+        title: "two rubber rings collide off their axis, bounce and ring",
+        citation: "after Gray, Monaghan & Swift, Comput. Methods Appl. Mech. Eng. 190 (2001) 6641",
+        text: include_str!("../../scenes/colliding-rings.toml"),
+    },
+    CatalogueEntry {
+        name: "cantilever",
+        title: "a clamped rubber beam is let go and swings about its static deflection",
+        citation: "Euler-Bernoulli beam; material of Turek & Hron, LNCSE 53 (2006) 371",
+        text: include_str!("../../scenes/cantilever.toml"),
+    },
 ];

@@ -55,10 +55,11 @@ pub(super) fn unknown_key(
     span: Span,
 ) -> Problem {
     let dimension = dimension(&spec.root);
+    let family = family(&spec.root);
     let here: Vec<&str> = rules
         .keys
         .iter()
-        .filter(|key| key.exists_in(dimension))
+        .filter(|key| key.exists_in(dimension) && key.exists_for(family))
         .map(|key| key.name)
         .collect();
     let help = if let Some(meant) = nearest(name, here.iter().copied()) {
@@ -154,6 +155,7 @@ impl Checker<'_> {
     fn value(&mut self, key: &SceneKey, node: &Node) {
         match (key.kind, &node.value) {
             (ValueType::Text, WrittenValue::Text(_)) => {}
+            (ValueType::Flag, WrittenValue::Boolean(_)) => {}
             (ValueType::Choice(words), WrittenValue::Text(word)) => {
                 self.choice(key, words, word, node.span)
             }
@@ -212,6 +214,7 @@ impl Checker<'_> {
                 "a word in quotation marks".to_owned(),
                 vec![format!("allowed: {}", quoted(&Model::known(), "or"))],
             ),
+            ValueType::Flag => ("true or false".to_owned(), Vec::new()),
             ValueType::Dimension => ("2 or 3".to_owned(), Vec::new()),
             ValueType::Whole => (in_unit("a whole number", key), allowed(key)),
             ValueType::Number | ValueType::Rotation => (in_unit("a number", key), allowed(key)),
@@ -244,7 +247,7 @@ impl Checker<'_> {
         let names: Vec<String> = inner
             .keys
             .iter()
-            .filter(|key| key.exists_in(self.dimension))
+            .filter(|key| key.exists_in(self.dimension) && key.exists_for(self.family))
             .map(|key| format!("`{}`", key.name))
             .collect();
         vec![format!("its keys are {}", listed(&names, "and"))]

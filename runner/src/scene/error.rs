@@ -60,10 +60,10 @@ pub enum SceneError {
         /// The first line that is not UTF-8, counted from 1.
         line: usize,
     },
-    /// The regions hold no fluid particle.
+    /// The regions hold no particle that a model moves.
     #[error(
-        "error: scene `{scene}` has no fluid particle at a particle spacing of \
-         {particle_spacing:?} m\nhelp: a fluid region must hold at least one node of its \
+        "error: scene `{scene}` has no {kind} particle at a particle spacing of \
+         {particle_spacing:?} m\nhelp: a {kind} region must hold at least one node of its \
          lattice, the first of which lies half a spacing inside its lower corner"
     )]
     NoFluid {
@@ -71,6 +71,8 @@ pub enum SceneError {
         scene: String,
         /// Particle spacing, m.
         particle_spacing: f64,
+        /// Fluid or solid.
+        kind: &'static str,
     },
     /// The initial state correction found no positions of equal density.
     #[error(
@@ -105,6 +107,30 @@ pub enum SceneError {
         second: (usize, String),
         /// The point, m; as many coordinates as dimensions.
         point: Vec<f64>,
+    },
+    /// Two bodies start within the reach of each other's forces.
+    #[error(
+        "error: two bodies of scene `{scene}` start too near to each other, at ({})\n  \
+         region {}: {}\n  region {}: {}\n\
+         help: particles of different bodies begin at least one support radius apart, {reach} m; \
+         regions of one `body` may touch",
+        coordinates(.point),
+        .first.0,
+        .first.1,
+        .second.0,
+        .second.1
+    )]
+    BodiesTooNear {
+        /// Name of the scene.
+        scene: String,
+        /// Number of the first region in file order, from 0, and its description.
+        first: (usize, String),
+        /// Number of the second region and its description.
+        second: (usize, String),
+        /// The point, m; as many coordinates as dimensions.
+        point: Vec<f64>,
+        /// The least distance, m.
+        reach: f64,
     },
     /// More particles than 32-bit indices can hold.
     #[error(

@@ -27,6 +27,19 @@ pub struct InitialState {
     pub fluid_velocity: Vec<Vector3>,
     /// Positions of the wall particles, m.
     pub wall: Vec<Vector3>,
+    /// The parts of elastic bodies, one for each region, in the order of their first ids.
+    pub parts: Vec<InitialPart>,
+}
+
+/// Particles with consecutive ids that belong to one body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InitialPart {
+    /// Id of the first one.
+    pub first: u64,
+    /// Number of the body, in the order of appearance.
+    pub body: usize,
+    /// Whether they never move.
+    pub held: bool,
 }
 
 /// The most particles of a scene: their numbers fit into 32 bits with one to spare.
@@ -62,7 +75,7 @@ impl Scene {
         };
         for region in self.filled_regions().map(|(_, region)| region) {
             match region.kind {
-                RegionKind::Fluid => {
+                RegionKind::Fluid | RegionKind::Solid => {
                     let lattice = self.own_lattice(region).unwrap_or(first);
                     counts.0 = counts.0.saturating_add(estimate(lattice, &region.shape));
                 }
@@ -86,6 +99,11 @@ impl Scene {
         let no_fluid = || SceneError::NoFluid {
             scene: self.name.clone(),
             particle_spacing: self.particle_spacing,
+            kind: if self.solid.is_some() {
+                "solid"
+            } else {
+                "fluid"
+            },
         };
         let first = self.first_lattice().ok_or_else(no_fluid)?;
         if self.nodes_of_bounds(first) > MOST_PARTICLES as f64 {
@@ -95,17 +113,26 @@ impl Scene {
 
         let mut state = InitialState::default();
         let mut placed = Vec::new();
+        let (bodies, _) = self.bodies();
         for (number, region) in self.filled_regions() {
             let lattice = match region.kind {
                 RegionKind::Fluid => self.own_lattice(region).unwrap_or(first),
+                RegionKind::Solid => self.lattice_of_the_body(number).unwrap_or(first),
                 RegionKind::Wall => first,
             };
             self.check_reach(number, lattice, &region.shape)?;
             let points = match region.kind {
-                RegionKind::Fluid => &mut state.fluid,
+                RegionKind::Fluid | RegionKind::Solid => &mut state.fluid,
                 RegionKind::Wall => &mut state.wall,
             };
             let before = points.len();
+            if region.kind == RegionKind::Solid {
+                state.parts.push(InitialPart {
+                    first: before as u64,
+                    body: bodies[number],
+                    held: region.held,
+                });
+            }
             visit(&lattice, &region.shape, |point| points.push(point));
             placed.push((number, region.kind, before));
         }
@@ -124,7 +151,7 @@ impl Scene {
     fn set_velocities(&self, state: &mut InitialState, placed: &[(usize, RegionKind, usize)]) {
         state.fluid_velocity = vec![[0.0; 3]; state.fluid.len()];
         for &(number, kind, start) in placed {
-            if kind != RegionKind::Fluid {
+            if !kind.is_of_the_model() {
                 continue;
             }
             let field = self.regions[number].velocity;
@@ -145,9 +172,9 @@ impl Scene {
             self.particle_spacing,
             self.support_radius(),
             self.particle_mass(),
-            self.fluid.reference_density,
+            self.reference_density(),
         );
-        let fluid = |region: &&Region| region.kind == RegionKind::Fluid;
+        let fluid = |region: &&Region| region.kind.is_of_the_model();
         let spiral = |region: &Region| region.lattice == Some(LatticeKind::Vogel);
         if self.regions.iter().filter(fluid).all(spiral) {
             isc::CorrectionSettings {
@@ -198,7 +225,7 @@ impl Scene {
         self.regions
             .iter()
             .enumerate()
-            .filter(move |(_, region)| walls || region.kind == RegionKind::Fluid)
+            .filter(move |(_, region)| walls || region.kind.is_of_the_model())
     }
 
     /// The number of nodes in the bounds of all regions: no scene has more particles.
@@ -224,11 +251,18 @@ impl Scene {
         })
     }
 
+    /// The lattice of the first region of the body that a region belongs to.
+    fn lattice_of_the_body(&self, number: usize) -> Option<Lattice> {
+        let (bodies, _) = self.bodies();
+        let first = bodies.iter().position(|body| *body == bodies[number])?;
+        self.own_lattice(&self.regions[first])
+    }
+
     /// The lattice of the first fluid region, which walls continue.
     fn first_lattice(&self) -> Option<Lattice> {
         self.regions
             .iter()
-            .find(|region| region.kind == RegionKind::Fluid)
+            .find(|region| region.kind.is_of_the_model())
             .and_then(|region| self.own_lattice(region))
     }
 
@@ -285,9 +319,10 @@ impl Scene {
     ) -> Result<(), SceneError> {
         let mut groups: Vec<(usize, &[Vector3])> = Vec::new();
         for (position, &(number, kind, start)) in placed.iter().enumerate() {
-            let all = match kind {
-                RegionKind::Fluid => &state.fluid,
-                RegionKind::Wall => &state.wall,
+            let all = if kind.is_of_the_model() {
+                &state.fluid
+            } else {
+                &state.wall
             };
             let end = placed[position + 1..]
                 .iter()
@@ -296,9 +331,26 @@ impl Scene {
             groups.push((number, &all[start..end]));
         }
         let axes = self.dimension.axes();
+        let (bodies, _) = self.bodies();
         for (position, &(first, points)) in groups.iter().enumerate() {
             for &(second, others) in &groups[position + 1..] {
-                if let Some(point) = too_near(points, others, self.particle_spacing, axes) {
+                // Bodies within each other's reach would begin with a pressure between them that
+                // their constants hide.
+                let reach = self.support_radius();
+                if self.solid.is_some()
+                    && bodies[first] != bodies[second]
+                    && let Some(point) = too_near(points, others, reach, axes)
+                {
+                    return Err(SceneError::BodiesTooNear {
+                        scene: self.name.clone(),
+                        first: (first, describe(&self.regions[first], self.dimension)),
+                        second: (second, describe(&self.regions[second], self.dimension)),
+                        point: point[..axes].to_vec(),
+                        reach,
+                    });
+                }
+                let near = TOO_NEAR * self.particle_spacing;
+                if let Some(point) = too_near(points, others, near, axes) {
                     return Err(SceneError::Coincident {
                         scene: self.name.clone(),
                         first: (first, describe(&self.regions[first], self.dimension)),
@@ -344,12 +396,11 @@ fn estimate(lattice: Lattice, shape: &Shape) -> u64 {
     (0..power).fold(count, |count, _| count.saturating_mul(coarser))
 }
 
-/// The first point of `a` that is too near to one of `b`.
+/// The first point of `a` that is nearer than `near` to one of `b`.
 ///
 /// The points of `b` are sorted into cubes of the distance that is allowed; what is too near to a
 /// point lies in its cube or in one of those around.
-fn too_near(a: &[Vector3], b: &[Vector3], spacing: f64, axes: usize) -> Option<Vector3> {
-    let near = TOO_NEAR * spacing;
+fn too_near(a: &[Vector3], b: &[Vector3], near: f64, axes: usize) -> Option<Vector3> {
     let common = overlap(grown(bounds(a)?, [near; 3]), grown(bounds(b)?, [near; 3]))?;
     let inside = |p: &&Vector3| (0..axes).all(|k| common.0[k] <= p[k] && p[k] <= common.1[k]);
     let cube = |p: &Vector3| -> [i64; 3] {

@@ -7,7 +7,7 @@
 //!
 //! Each key is declared once, with its type, unit, range, default and meaning (module `declare`):
 //! those of every scene in `types`, `forces`, `step` and `region_keys`, those of the weakly
-//! compressible models in `wcsph`; `model` is the table of models. [`Scene::to_toml`] prints a
+//! compressible models in `wcsph`, of elastic ones in `solid`; `model` is the table of models. [`Scene::to_toml`] prints a
 //! scene with all keys, unit and meaning beside each. Every mistake of a text is reported, each
 //! with file, line, caret and help, in one [`SceneError`].
 //!
@@ -55,6 +55,7 @@ mod region_keys;
 mod regions;
 mod schema;
 mod shape;
+mod solid;
 mod source;
 mod spec;
 mod step;
@@ -67,10 +68,11 @@ pub use catalogue::{CatalogueEntry, catalogue};
 pub use error::{Line, Place, Problem, ProblemKind, Problems, SceneError};
 pub use forces::{CentralGravity, Gravity};
 pub use geometry::Vector3;
-pub use initial::InitialState;
+pub use initial::{InitialPart, InitialState};
 pub use model::Model;
 pub use region::{Region, Velocity};
 pub use shape::Shape;
+pub use solid::{ElasticEnergy, Solid};
 pub use source::{Source, resolve};
 pub use step::StepRule;
 pub use types::{Output, Scene};

@@ -10,7 +10,7 @@ use super::builder::{Builder, Here};
 use super::declare::KeyValue;
 use super::page::{Page, text};
 use super::schema::{Family, ValueType};
-use super::wcsph;
+use super::{solid, wcsph};
 use crate::model_list::for_each_model;
 use std::sync::{PoisonError, RwLock};
 
@@ -27,7 +27,7 @@ macro_rules! scene_models {
     (
         $(
             $(#[$doc:meta])*
-            $variant:ident = $word:literal, keys $family:ident, made by $made:path,
+            $variant:ident = $word:literal, keys $family:ident, made by $made:path, from $from:ident,
             except [$($exclusion:expr)?];
         )+
     ) => {

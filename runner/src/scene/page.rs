@@ -114,12 +114,17 @@ impl Page {
         list(&vector[..self.dimension.axes()])
     }
 
+    /// Whether the scene may have a key, by its dimension and its model.
+    pub fn may_have(&self, key: &SceneKey) -> bool {
+        key.exists_in(Some(self.dimension)) && self.has(key)
+    }
+
     fn key(&self, name: &str) -> Option<&'static SceneKey> {
         self.open.last().and_then(|(_, rules)| rules.key(name))
     }
 
     fn has(&self, key: &SceneKey) -> bool {
-        key.family.is_none_or(|family| family == self.family)
+        key.exists_for(Some(self.family))
     }
 
     fn is_at_the_top(&self) -> bool {

@@ -16,10 +16,20 @@ pub(super) fn print_region(page: &mut Page, region: &Region) {
     page.header("[[region]]", true);
     let kind = Some(text(region.kind.word()));
     print_at(page, &REGION, "kind", "kind", kind);
+    if region.kind == RegionKind::Solid {
+        print_at(
+            page,
+            &REGION,
+            "body",
+            "body",
+            region.body.as_deref().map(text),
+        );
+        print_at(page, &REGION, "held", "held", Some(region.held.to_string()));
+    }
     let lattice = region.lattice.map(|lattice| text(lattice.word()));
     print_at(page, &REGION, "lattice", "lattice", lattice);
     print_shape(page, "shape", &region.shape);
-    if region.kind == RegionKind::Fluid {
+    if region.kind.is_of_the_model() && !region.held {
         print_velocity(page, region.velocity);
     }
 }
@@ -38,8 +48,22 @@ fn print_at(
 }
 
 /// The keys of a velocity in the order in which they are printed.
-const VELOCITY_KEYS: [&str; 8] = [
-    "uniform", "rotation", "gresho", "radius", "kepler", "centre", "linear", "offset",
+const VELOCITY_KEYS: [&str; 15] = [
+    "uniform",
+    "rotation",
+    "gresho",
+    "radius",
+    "kepler",
+    "centre",
+    "bending",
+    "wave_number",
+    "a1",
+    "a2",
+    "start",
+    "twist",
+    "height",
+    "linear",
+    "offset",
 ];
 
 /// Prints every key of a velocity that exists in the scene's dimension.
@@ -47,7 +71,7 @@ fn print_velocity(page: &mut Page, velocity: Option<Velocity>) {
     let given = velocity.map_or(Vec::new(), |velocity| velocity_values(page, velocity));
     for name in VELOCITY_KEYS {
         let key = VELOCITY.key(name);
-        if let Some(key) = key.filter(|key| key.exists_in(Some(page.dimension))) {
+        if let Some(key) = key.filter(|key| page.may_have(key)) {
             let value = given.iter().find(|(known, _)| *known == name);
             let value = value.map(|(_, value)| value.clone());
             page.value_at(key, &format!("velocity.{name}"), value);
@@ -79,6 +103,21 @@ fn velocity_values(page: &Page, velocity: Velocity) -> Vec<NamedValue> {
             ("kepler", number(strength)),
             ("centre", page.vector(centre)),
         ],
+        Velocity::Bending {
+            peak,
+            wave_number,
+            shape: [a1, a2],
+            start,
+        } => vec![
+            ("bending", number(peak)),
+            ("wave_number", number(wave_number)),
+            ("a1", number(a1)),
+            ("a2", number(a2)),
+            ("start", number(start)),
+        ],
+        Velocity::Twist { rate, height } => {
+            vec![("twist", number(rate)), ("height", number(height))]
+        }
         Velocity::Linear { matrix, offset } => {
             let rows = matrix[..page.dimension.axes()].iter();
             let rows: Vec<String> = rows.map(|&row| page.vector(row)).collect();

@@ -3,6 +3,7 @@
 use super::geometry::Vector3;
 use super::shape::Shape;
 use super::words::{LatticeKind, RegionKind};
+use std::f64::consts::PI;
 
 /// A part of the plane or space that is filled with particles.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +17,10 @@ pub struct Region {
     pub lattice: Option<LatticeKind>,
     /// First velocity; `None` is at rest. A wall has `None`.
     pub velocity: Option<Velocity>,
+    /// Name of the body that a solid region belongs to; `None`: a body of its own.
+    pub body: Option<String>,
+    /// Whether the particles of a solid region never move.
+    pub held: bool,
 }
 
 /// A velocity field.
@@ -48,6 +53,27 @@ pub enum Velocity {
         /// The middle, m.
         centre: Vector3,
     },
+    /// Bending of a beam along x that begins at `start`, its first mode with free ends:
+    /// u_y = peak (a1 (sinh s + sin s) - a2 (cosh s + cos s)), s = wave_number (x - start).
+    /// (Kincl et al., Appl. Math. Comput. 439 (2023) 127579, eq. (55).)
+    Bending {
+        /// Amplitude times angular frequency, m/s.
+        peak: f64,
+        /// 1/m.
+        wave_number: f64,
+        /// a1 and a2.
+        shape: [f64; 2],
+        /// Where s is 0, m.
+        start: f64,
+    },
+    /// Torsion of a column along z: u = rate sin(π z/(2 height)) (y, -x, 0).
+    /// (The same, eq. (60).)
+    Twist {
+        /// Largest angular velocity, rad/s.
+        rate: f64,
+        /// m.
+        height: f64,
+    },
     /// A linear field: u = A x + b.
     Linear {
         /// The matrix A by rows, 1/s.
@@ -58,7 +84,8 @@ pub enum Velocity {
 }
 
 impl Velocity {
-    /// The velocity at `x`, m/s, from `+ - * / sqrt` in one written order.
+    /// The velocity at `x`, m/s, from `+ - * / sqrt` in one written order, and from `libm`'s
+    /// functions, which have the same bits everywhere.
     #[must_use]
     pub fn at(&self, x: Vector3) -> Vector3 {
         match self {
@@ -96,6 +123,21 @@ impl Velocity {
                     0.0
                 }
             }),
+            Self::Bending {
+                peak,
+                wave_number,
+                shape: [a1, a2],
+                start,
+            } => {
+                let s = wave_number * (x[0] - start);
+                let odd = libm::sinh(s) + libm::sin(s);
+                let even = libm::cosh(s) + libm::cos(s);
+                [0.0, peak * (a1 * odd - a2 * even), 0.0]
+            }
+            Self::Twist { rate, height } => {
+                let omega = rate * libm::sin(PI * x[2] / (2.0 * height));
+                [omega * x[1], -(omega * x[0]), 0.0]
+            }
             Self::Linear { matrix, offset } => std::array::from_fn(|i| {
                 matrix[i][0] * x[0] + matrix[i][1] * x[1] + matrix[i][2] * x[2] + offset[i]
             }),

@@ -3,8 +3,11 @@
 //! the rules of these tables refer to each other.
 
 use super::schema::Range::{Above, AboveUpTo, AtLeast};
-use super::schema::ValueType::{Choice, Matrix, Number, Rotation, Table, Tables, Vector};
+use super::schema::ValueType::{
+    Choice, Flag, Matrix, Number, Rotation, Table, Tables, Text, Vector,
+};
 use super::schema::{Form, SceneKey, TableRules, ValueType, key};
+use super::solid;
 use super::words::Dimension::{Three, Two};
 use super::words::{LatticeKind, RegionKind};
 
@@ -20,6 +23,12 @@ pub(super) static REGION: TableRules = TableRules {
         key("kind", Choice(RegionKind::WORDS))
             .required()
             .means("particles that move or particles that stay"),
+        key("body", Text)
+            .of(solid::FAMILY)
+            .means("name of the body; regions of one name are one body; absent: a body of its own"),
+        key("held", Flag)
+            .of(solid::FAMILY)
+            .means("whether the particles are held in their places, a clamp"),
         key("lattice", Choice(LatticeKind::WORDS)).means(
             "arrangement of fluid particles; a wall continues that of the first fluid region",
         ),
@@ -57,6 +66,35 @@ pub(super) static VELOCITY: TableRules = TableRules {
             .within(AtLeast(0.0))
             .only(Two)
             .means("circular orbits around the centre: u = sqrt(strength/r)"),
+        key("bending", Number)
+            .unit("m/s")
+            .of(solid::FAMILY)
+            .only(Two)
+            .means("peak of u_y = peak (a1 (sinh s + sin s) - a2 (cosh s + cos s))"),
+        key("wave_number", Number)
+            .unit("1/m")
+            .of(solid::FAMILY)
+            .only(Two)
+            .means("alpha of s = alpha (x - start)"),
+        key("a1", Number).of(solid::FAMILY).only(Two).means("a1"),
+        key("a2", Number).of(solid::FAMILY).only(Two).means("a2"),
+        key("start", Number)
+            .unit("m")
+            .of(solid::FAMILY)
+            .or(0.0)
+            .only(Two)
+            .means("where s is zero"),
+        key("twist", Number)
+            .unit("rad/s")
+            .of(solid::FAMILY)
+            .only(Three)
+            .means("largest angular velocity of u = twist sin(pi z/(2 height)) (y, -x, 0)"),
+        key("height", Number)
+            .unit("m")
+            .of(solid::FAMILY)
+            .within(Above(0.0))
+            .only(Three)
+            .means("height at which the column turns fastest"),
         key("linear", Matrix)
             .unit("1/s")
             .means("matrix A of u = A x + b, row by row"),

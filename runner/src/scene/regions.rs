@@ -10,29 +10,78 @@ use super::region_keys::{
 };
 use super::schema::{Family, SceneKey, listed};
 use super::shape::Shape;
+use super::solid;
 use super::spec::{Entry, WrittenTable, WrittenValue};
 use super::values::{as_table, elements, number, numbers};
+use super::wcsph;
 use super::words::{ChoiceWord, Dimension, LatticeKind, RegionKind};
 
 /// The axes by name, for messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Reports a scene without fluid.
-pub(super) fn require_fluid<'a>(builder: &mut Builder<'a>, top: Here<'a>) {
+/// Reports a scene without anything that moves.
+pub(super) fn require_movers<'a>(builder: &mut Builder<'a>, top: Here<'a>) {
     let Some(entry) = top.table.get(REGIONS.name) else {
         return;
     };
-    // A region of unknown kind counts as fluid: its kind is reported already.
-    let is_fluid = |table: &WrittenTable| match table.get("kind").map(|kind| &kind.node.value) {
-        Some(WrittenValue::Text(word)) => RegionKind::from_word(word) != Some(RegionKind::Wall),
+    let elastic = builder.is_of(solid::FAMILY) && !builder.is_of(wcsph::FAMILY);
+    let held = |table: &WrittenTable| {
+        let held = table.get("held").map(|held| &held.node.value);
+        elastic && matches!(held, Some(WrittenValue::Boolean(true)))
+    };
+    // A region of unknown kind counts as one that moves: its kind is reported already.
+    let moves = |table: &WrittenTable| match table.get("kind").map(|kind| &kind.node.value) {
+        Some(WrittenValue::Text(word)) => {
+            RegionKind::from_word(word) != Some(RegionKind::Wall) && !held(table)
+        }
         _ => true,
     };
     let mut regions = elements(&entry.node).iter().filter_map(as_table);
-    if matches!(entry.node.value, WrittenValue::List(_)) && !regions.any(is_fluid) {
-        builder.missing(
-            top,
-            "no region is fluid".to_owned(),
-            vec!["give at least one `[[region]]` the key `kind = \"fluid\"`".to_owned()],
+    if matches!(entry.node.value, WrittenValue::List(_)) && !regions.any(moves) {
+        let (what, help) = if elastic {
+            (
+                "no region is a solid that moves",
+                "give at least one `[[region]]` the key `kind = \"solid\"`, without `held`",
+            )
+        } else {
+            (
+                "no region is fluid",
+                "give at least one `[[region]]` the key `kind = \"fluid\"`",
+            )
+        };
+        builder.missing(top, what.to_owned(), vec![help.to_owned()]);
+    }
+}
+
+/// Reports a kind of region that the model does not know.
+fn refuse_kind<'a>(builder: &mut Builder<'a>, here: Here<'a>, kind: RegionKind) {
+    let Some(entry) = here.table.get("kind") else {
+        return;
+    };
+    let help = match kind {
+        RegionKind::Solid if !builder.is_of(solid::FAMILY) => {
+            "write `kind = \"fluid\"`, or set `model` to \"solid\""
+        }
+        RegionKind::Fluid if !builder.is_of(wcsph::FAMILY) => "write `kind = \"solid\"`",
+        RegionKind::Wall if !builder.is_of(wcsph::FAMILY) => {
+            "write `kind = \"solid\"` and `held = true`: a solid that never moves"
+        }
+        _ => return,
+    };
+    builder.conflict(
+        format!("the model has no {} regions", kind.word()),
+        entry.node.span,
+        help.to_owned(),
+    );
+}
+
+/// Reports a held region that is to move.
+fn refuse_moving_clamp<'a>(builder: &mut Builder<'a>, here: Here<'a>, held: bool) {
+    if let Some(entry) = here.table.get("velocity").filter(|_| held) {
+        builder.conflict(
+            "a region that is held has no `velocity`".to_owned(),
+            entry.key,
+            "what is held stays where it is: remove it, or remove `held`".to_owned(),
         );
     }
 }
@@ -80,6 +129,10 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
             }
         }
     }
+    refuse_kind(builder, here, kind);
+    let held = builder.flag(here, "held");
+    refuse_moving_clamp(builder, here, held);
+    let body = builder.text(here, "body").map(str::to_owned);
     let lattice = lattice(builder, here);
     let velocity = builder
         .inner(here, "velocity", &VELOCITY)
@@ -90,8 +143,10 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
     Region {
         kind,
         shape,
-        lattice: (kind == RegionKind::Fluid).then_some(lattice),
+        lattice: kind.is_of_the_model().then_some(lattice),
         velocity,
+        body,
+        held,
     }
 }
 
@@ -156,7 +211,7 @@ fn only_one<'a>(
             .rules
             .keys
             .iter()
-            .filter(|key| exclusive(key.name) && key.exists_in(Some(builder.dimension)))
+            .filter(|key| exclusive(key.name) && builder.may_have(key))
             .map(|key| format!("`{}`", key.name))
             .collect();
         let help = format!("one of {}", listed(&names, "or"));
@@ -166,12 +221,19 @@ fn only_one<'a>(
 }
 
 fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
-    let fields = ["uniform", "rotation", "gresho", "kepler", "linear"];
+    let fields = [
+        "uniform", "rotation", "gresho", "kepler", "bending", "twist", "linear",
+    ];
     let entry = only_one(builder, here, "the velocity", |name| fields.contains(&name))?;
-    let companions: [(&str, &[&str]); 3] = [
+    let companions: [(&str, &[&str]); 8] = [
         ("centre", &["rotation", "gresho", "kepler"]),
         ("radius", &["gresho"]),
         ("offset", &["linear"]),
+        ("wave_number", &["bending"]),
+        ("a1", &["bending"]),
+        ("a2", &["bending"]),
+        ("start", &["bending"]),
+        ("height", &["twist"]),
     ];
     for (name, owners) in companions {
         if let Some(stray) = here.table.get(name)
@@ -184,6 +246,18 @@ fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
                 stray.key,
                 "remove it".to_owned(),
             );
+        }
+    }
+    let needed: &[&str] = match entry.name.as_str() {
+        "bending" => &["wave_number", "a1", "a2"],
+        "twist" => &["height"],
+        _ => &[],
+    };
+    for name in needed {
+        if here.table.get(name).is_none() {
+            let message = format!("`{}` needs `{name}`", entry.name);
+            let meaning = here.rules.key(name).map_or("", |key| key.meaning);
+            builder.missing(here, message, vec![format!("`{name}`: {meaning}")]);
         }
     }
     Some(match entry.name.as_str() {
@@ -203,6 +277,16 @@ fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
         "kepler" => Velocity::Kepler {
             strength: builder.number(here, "kepler"),
             centre: builder.vector(here, "centre"),
+        },
+        "bending" => Velocity::Bending {
+            peak: builder.number(here, "bending"),
+            wave_number: builder.number(here, "wave_number"),
+            shape: ["a1", "a2"].map(|name| builder.number(here, name)),
+            start: builder.number(here, "start"),
+        },
+        "twist" => Velocity::Twist {
+            rate: builder.number(here, "twist"),
+            height: builder.number(here, "height"),
         },
         _ => {
             let rows = elements(&entry.node);

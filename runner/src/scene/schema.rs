@@ -92,6 +92,8 @@ pub(super) enum ValueType {
     Corners,
     /// A number in 2D, a vector in 3D.
     Rotation,
+    /// True or false.
+    Flag,
     /// One table.
     Table(&'static TableRules),
     /// An array of tables.
@@ -189,12 +191,21 @@ impl SceneKey {
         self.only.is_none() || self.only == dimension
     }
 
+    /// Whether a model of this family may have the key; an unknown model may have all.
+    pub fn exists_for(&self, family: Option<Family>) -> bool {
+        match (self.family, family) {
+            (Some(owner), Some(family)) => owner == family,
+            _ => true,
+        }
+    }
+
     /// What the value is, for the first half of a comment: unit, allowed words or type.
     pub fn unit_label(&self) -> String {
         match self.kind {
             ValueType::Text => "text".to_owned(),
             ValueType::Choice(words) | ValueType::Model(words) => quoted(words, "or"),
             ValueType::Dimension => "2 or 3".to_owned(),
+            ValueType::Flag => "true or false".to_owned(),
             ValueType::Table(_) | ValueType::Tables(_) => "table".to_owned(),
             _ if self.unit.is_empty() => "no unit".to_owned(),
             _ => self.unit.to_owned(),
@@ -251,6 +262,11 @@ impl SceneKey {
 
     pub const fn or(mut self, number: f64) -> Self {
         self.default = IfAbsent::Number(number);
+        self
+    }
+
+    pub const fn of(mut self, family: Family) -> Self {
+        self.family = Some(family);
         self
     }
 

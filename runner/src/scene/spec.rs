@@ -35,7 +35,7 @@ pub(super) enum WrittenValue {
     Text(String),
     Integer(i64),
     Float(f64),
-    Boolean,
+    Boolean(bool),
     Date,
     List(Vec<Node>),
     Table(WrittenTable),
@@ -48,7 +48,7 @@ impl WrittenValue {
             Self::Text(_) => "a string",
             Self::Integer(_) => "a whole number",
             Self::Float(_) => "a number",
-            Self::Boolean => "true or false",
+            Self::Boolean(_) => "true or false",
             Self::Date => "a date",
             Self::List(_) => "an array",
             Self::Table(_) => "a table",
@@ -264,7 +264,7 @@ fn value_node(source: &toml_edit::Value, text: usize, key: Span) -> Node {
         toml_edit::Value::String(inner) => WrittenValue::Text(inner.value().clone()),
         toml_edit::Value::Integer(inner) => WrittenValue::Integer(*inner.value()),
         toml_edit::Value::Float(inner) => WrittenValue::Float(*inner.value()),
-        toml_edit::Value::Boolean(_) => WrittenValue::Boolean,
+        toml_edit::Value::Boolean(inner) => WrittenValue::Boolean(*inner.value()),
         toml_edit::Value::Datetime(_) => WrittenValue::Date,
         toml_edit::Value::Array(inner) => WrittenValue::List(
             inner

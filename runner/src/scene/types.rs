@@ -9,6 +9,7 @@ use super::region::Region;
 use super::schema::IfAbsent::{Number, Optional, Required, Word};
 use super::schema::Range::{Above, Any, Between};
 use super::schema::{ANY_MODEL, TableRules};
+use super::solid::Solid;
 use super::step::StepRule;
 use super::wcsph::{Fluid, WallPotential, Water};
 use super::words::{Dimension, Integrator};
@@ -37,7 +38,8 @@ keys! {
             "composition of drifts and kicks in a step";
         /// The settings of the weakly compressible models.
         ..water: Water;
-        fluid: Fluid = Required, Any, "what the material is";
+        fluid: Option<Fluid> = Required, Any, "what the material is";
+        solid: Option<Solid> = Required, Any, "what the bodies are made of";
         gravity: Gravity = Optional, Any, "which outside forces act";
         wall: Option<WallPotential> = Optional, Any, "how a conservative wall repels";
         output: Output = Optional, Any, "how much a run writes; changes no bit of it";
@@ -72,7 +74,7 @@ impl Scene {
         let follows = vec![
             (
                 "cfl",
-                self.time_step() * self.fluid.sound_speed / self.support_radius(),
+                self.time_step() * self.step_speed() / self.support_radius(),
             ),
             ("time_step", self.time_step()),
             ("end", self.end_time()),
@@ -82,10 +84,65 @@ impl Scene {
         page.finish()
     }
 
+    /// The number of the body that each region belongs to, in the order in which bodies appear, and
+    /// how many bodies there are.
+    #[must_use]
+    pub fn bodies(&self) -> (Vec<usize>, usize) {
+        let mut names: Vec<Option<&str>> = Vec::new();
+        let mut numbers = Vec::new();
+        for region in &self.regions {
+            let name = region.body.as_deref();
+            let known = name.and_then(|name| names.iter().position(|other| *other == Some(name)));
+            numbers.push(known.unwrap_or(names.len()));
+            if known.is_none() {
+                names.push(name);
+            }
+        }
+        (numbers, names.len())
+    }
+
     /// The support radius of the kernel, m.
     #[must_use]
     pub fn support_radius(&self) -> f64 {
         self.support * self.particle_spacing
+    }
+
+    /// The density of the material at rest, kg/m³ (kg/m² in the plane).
+    #[must_use]
+    pub fn reference_density(&self) -> f64 {
+        match (self.fluid, self.solid) {
+            (_, Some(solid)) => solid.reference_density,
+            (Some(fluid), _) => fluid.reference_density,
+            // A scene with a mistake, of which nothing is used.
+            (None, None) => f64::NAN,
+        }
+    }
+
+    /// The speed of sound in the material, m/s: in a solid, of longitudinal waves.
+    #[must_use]
+    pub fn sound_speed(&self) -> f64 {
+        match (self.fluid, self.solid) {
+            (_, Some(solid)) => solid.material().longitudinal_speed(),
+            (Some(fluid), _) => fluid.sound_speed,
+            (None, None) => f64::NAN,
+        }
+    }
+
+    /// The key that sets the speed of sound, with its value in m/s.
+    #[must_use]
+    pub fn sound_key(&self) -> (&'static str, f64) {
+        match self.solid {
+            Some(solid) => ("solid.bulk_speed", solid.bulk_speed),
+            None => ("fluid.sound_speed", self.sound_speed()),
+        }
+    }
+
+    /// The speed that limits the time step, m/s: that of sound, and in a solid with what
+    /// [`Solid::step_speed`] adds.
+    #[must_use]
+    pub fn step_speed(&self) -> f64 {
+        self.solid
+            .map_or(self.sound_speed(), |solid| solid.step_speed())
     }
 
     /// The mass of every particle, fluid and wall, kg (kg/m in the plane).
@@ -96,14 +153,14 @@ impl Scene {
             Dimension::Two => area,
             Dimension::Three => area * self.particle_spacing,
         };
-        self.fluid.reference_density * volume
+        self.reference_density() * volume
     }
 
     /// The time step, s.
     #[must_use]
     pub fn time_step(&self) -> f64 {
         match self.step {
-            StepRule::Cfl(cfl) => cfl * self.support_radius() / self.fluid.sound_speed,
+            StepRule::Cfl(cfl) => cfl * self.support_radius() / self.step_speed(),
             StepRule::Seconds(seconds) => seconds,
         }
     }

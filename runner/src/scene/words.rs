@@ -72,6 +72,16 @@ words! {
         Fluid = "fluid",
         /// Particles that stay where they are.
         Wall = "wall",
+        /// Particles of an elastic body.
+        Solid = "solid",
+    }
+}
+
+impl RegionKind {
+    /// Whether its particles belong to those that a model moves.
+    #[must_use]
+    pub const fn is_of_the_model(self) -> bool {
+        matches!(self, Self::Fluid | Self::Solid)
     }
 }
 

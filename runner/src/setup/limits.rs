@@ -13,7 +13,7 @@ use loschmidt_core::schemes::wcsph::Wall;
 ///   sqrt(2 E)/r_wall, stable for time steps up to four times this.
 #[must_use]
 pub fn fixed_limits(scene: &Scene) -> Vec<(&'static str, f64)> {
-    let acoustic = 0.4 * scene.support_radius() / scene.fluid.sound_speed;
+    let acoustic = 0.4 * scene.support_radius() / scene.step_speed();
     let mut limits = vec![("acoustic", acoustic)];
     if let Wall::Conservative { energy, radius, .. } = wall(scene) {
         limits.push(("wall", 0.5 * radius / (2.0 * energy).sqrt()));

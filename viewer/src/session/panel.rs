@@ -8,6 +8,8 @@ use loschmidt_runner::scene::Scene;
 /// The panel of parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Panel {
+    /// The key of the speed of sound.
+    sound_key: &'static str,
     /// Values as they are typed, in the order of [`Panel::FIELDS`].
     pub values: [String; 4],
     /// The values before.
@@ -32,6 +34,8 @@ impl Panel {
     const INTEGRATORS: [&'static str; 3] = ["stormer-verlet", "pefrl", "suzuki"];
     /// The field of the integrator, which is chosen and not typed.
     const INTEGRATOR: usize = 2;
+    /// The field of the speed of sound, whose key depends on the model.
+    const SOUND: usize = 1;
     /// The field of the threads, which are no key of a scene.
     const THREADS: usize = 3;
 
@@ -40,13 +44,14 @@ impl Panel {
     pub fn new(scene: &Scene, options: &Options) -> Self {
         let values = [
             scene.particle_spacing.to_string(),
-            scene.fluid.sound_speed.to_string(),
+            scene.sound_key().1.to_string(),
             scene.integrator.word().to_owned(),
             options.threads.to_string(),
         ];
         Self {
             before: values.clone(),
             values,
+            sound_key: scene.sound_key().0,
             field: 0,
             fresh: true,
             problem: None,
@@ -117,6 +122,11 @@ impl Panel {
         let mut set = open.set.clone();
         let mut changed = false;
         for (n, (_, _, key)) in Self::FIELDS.iter().enumerate() {
+            let key = if n == Self::SOUND {
+                self.sound_key
+            } else {
+                *key
+            };
             if n != Self::THREADS && self.values[n] != self.before[n] {
                 set.retain(|old| !old.starts_with(&format!("{key}=")));
                 set.push(format!("{key}={}", self.values[n]));

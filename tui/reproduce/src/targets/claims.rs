@@ -21,7 +21,7 @@ pub fn kepler(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         "Footnote 8: the Kepler ring",
         format!(
             "A ring from 0.9 to 1.1 m around GM = 1 m³/s², spacing {spacing} m, sound speed {} m/s (a hundredth of the orbital speed); ten revolutions out and ten back.",
-            scene.fluid.sound_speed
+            scene.sound_speed()
         ),
     );
     let mut player = lab.player(&scene, lab.options())?;

@@ -291,7 +291,7 @@ fn budget(past: &Past, quick: bool, section: &mut Section) {
     let scene = &past.scene;
     let particles = past.state("home").map_or(0, |state| state.id.len());
     let mass = particles as f64 * scene.particle_mass();
-    let offset = mass * scene.fluid.sound_speed.powi(2) / 6.0;
+    let offset = mass * scene.sound_speed().powi(2) / 6.0;
     for (rows, until) in [(&to_one[..], "1 s"), (&past.rows[..], "the end")] {
         let error = error_over_released(rows);
         section.measure(

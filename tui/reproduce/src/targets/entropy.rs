@@ -61,7 +61,7 @@ pub fn fig6(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         ),
     );
     let speeds = speeds(&past.state("turnaround")?);
-    let histogram = histogram(&speeds, past.scene.fluid.sound_speed);
+    let histogram = histogram(&speeds, past.scene.sound_speed());
     let entropy = histogram.entropy();
     if let (Some(of_energy), Some(of_fit), Some(temperature)) = (
         histogram.equilibrium_of_energy(),

@@ -30,7 +30,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     });
     for text in [
         format!("spacing {} m", short(scene.particle_spacing)),
-        format!("c {} m/s", short(scene.fluid.sound_speed)),
+        format!("c {} m/s", short(scene.sound_speed())),
         scene.integrator.word().to_owned(),
         scene.model.word().to_owned(),
         format!(
