@@ -38,6 +38,7 @@ pub mod scene;
 pub mod setup;
 pub mod simulation;
 mod storage;
+pub mod time_unit;
 
 pub use deck::Deck;
 pub use engine::simulate;

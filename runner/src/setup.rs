@@ -1,9 +1,11 @@
 //! From a scene to a simulation: the parameters of the core, its units, and the memory it takes.
 
 mod limits;
+mod response;
 mod solids;
 
 pub use limits::{fixed_limits, force_limit};
+pub use response::{LatticeResponse, lattice_response};
 pub use solids::solid_parameters;
 
 use crate::engine::simulate;

@@ -3,6 +3,7 @@
 use crate::exit::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use loschmidt_runner::run::Progress;
+use loschmidt_runner::time_unit::TimeUnit;
 use loschmidt_runner::{Run, setup};
 use loschmidt_viewer::movie;
 use std::io::IsTerminal;
@@ -41,9 +42,16 @@ pub enum Display {
     /// Nothing.
     Quiet,
     /// A bar.
-    Bar(ProgressBar),
+    Bar {
+        /// It.
+        bar: ProgressBar,
+        /// In which times are shown.
+        unit: TimeUnit,
+    },
     /// Lines.
     Lines {
+        /// In which times are shown.
+        unit: TimeUnit,
         /// When and at which step this process began.
         began: Option<(Instant, u64)>,
         /// When the last line was printed.
@@ -52,12 +60,13 @@ pub enum Display {
 }
 
 impl Display {
-    pub fn new(quiet: bool, done: u64, total: u64) -> Self {
+    pub fn new(quiet: bool, unit: TimeUnit, done: u64, total: u64) -> Self {
         if quiet {
             return Self::Quiet;
         }
         if !std::io::stderr().is_terminal() {
             return Self::Lines {
+                unit,
                 began: None,
                 last: None,
             };
@@ -71,18 +80,18 @@ impl Display {
         }
         bar.set_position(done);
         bar.reset_eta();
-        Self::Bar(bar)
+        Self::Bar { bar, unit }
     }
 
     pub fn show(&mut self, progress: &Progress<'_>) {
         match self {
             Self::Quiet => {}
-            Self::Bar(bar) => {
+            Self::Bar { bar, unit } => {
                 bar.set_prefix(if progress.way_back { "back" } else { "out" });
-                bar.set_message(energies(progress));
+                bar.set_message(energies(progress, *unit));
                 bar.set_position(progress.step);
             }
-            Self::Lines { began, last } => {
+            Self::Lines { unit, began, last } => {
                 let now = Instant::now();
                 let (start, first) = *began.get_or_insert((now, progress.step));
                 let finished = progress.step == progress.total;
@@ -102,7 +111,7 @@ impl Display {
                     if progress.way_back { "back" } else { "out" },
                     progress.step,
                     progress.total,
-                    energies(progress)
+                    energies(progress, *unit)
                 ));
             }
         }
@@ -112,8 +121,8 @@ impl Display {
     /// could not be taken away cleanly: the terminal has echoed the Ctrl-C into it.)
     pub fn finish(self, well: bool) {
         match self {
-            Self::Bar(bar) if well => bar.finish_and_clear(),
-            Self::Bar(bar) => {
+            Self::Bar { bar, .. } if well => bar.finish_and_clear(),
+            Self::Bar { bar, .. } => {
                 bar.abandon();
                 tell("");
             }
@@ -122,19 +131,27 @@ impl Display {
     }
 }
 
-fn energies(progress: &Progress<'_>) -> String {
+fn energies(progress: &Progress<'_>, unit: TimeUnit) -> String {
     let (row, home) = (progress.row, progress.home);
     // Short enough for one line of 80 columns: a wrapped bar cannot be redrawn cleanly.
-    format!(
-        "t {:.4} s  J: kin {:.0} int {:.0} grav {:.0} wall {:.0} error {:+.1e}  S {:.3}",
-        row.time_s,
-        row.energy("kinetic"),
-        row.energy("internal"),
-        row.energy("gravitational"),
-        row.energy("wall"),
-        row.total - home.total,
-        row.entropy
-    )
+    let mut text = format!("t {:.4} {}  J:", unit.count(row.time_s), unit.name);
+    for (kind, energy) in row.energies.iter().take(4) {
+        let brief: String = kind.chars().take(brief_length(kind)).collect();
+        text += &format!(" {brief} {energy:.0}");
+    }
+    let error = row.total - home.total;
+    text + &format!(" error {error:+.1e}  S {:.3}", row.entropy)
+}
+
+/// Longest name of an energy where there is little room.
+const BRIEF: usize = 4;
+
+/// How much of a name is enough to know it by.
+fn brief_length(kind: &str) -> usize {
+    match kind {
+        "kinetic" | "internal" => 3,
+        _ => BRIEF,
+    }
 }
 
 /// Seconds for people: 48 s, 12 min 30 s, 2 h 05 min.

@@ -3,9 +3,10 @@
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use loschmidt_runner::Outcome;
 use loschmidt_runner::run::Row;
+use loschmidt_runner::time_unit::TimeUnit;
 
 /// The table of energies, entropy and digests.
-pub fn table(outcome: &Outcome, rows: &[Row]) -> String {
+pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
     let first = rows.first();
     let turn = rows.iter().rev().find(|row| row.leg == 1);
     let last = rows.last();
@@ -24,13 +25,12 @@ pub fn table(outcome: &Outcome, rows: &[Row]) -> String {
             .map(|(_, row)| row.map_or(String::new(), value));
         table.add_row(std::iter::once(name.to_owned()).chain(cells));
     };
-    line("time", &|row| format!("{:.4} s", row.time_s));
-    line("kinetic energy", &|row| joule(row.energy("kinetic")));
-    line("internal energy", &|row| joule(row.energy("internal")));
-    line("gravitational energy", &|row| {
-        joule(row.energy("gravitational"))
+    line("time", &|row| {
+        format!("{:.4} {}", unit.count(row.time_s), unit.name)
     });
-    line("wall energy", &|row| joule(row.energy("wall")));
+    for (kind, _) in first.into_iter().flat_map(|row| &row.energies) {
+        line(&format!("{kind} energy"), &|row| joule(row.energy(kind)));
+    }
     line("total energy", &|row| joule(row.total));
     line("entropy", &|row| format!("{:.4}", row.entropy));
     line("  in equilibrium", &|row| {
@@ -46,7 +46,17 @@ pub fn table(outcome: &Outcome, rows: &[Row]) -> String {
             "{:.3} J, {error:.2e} of the {:.1} J released",
             outcome.energy.max_error, outcome.energy.released
         ),
-        None => format!("{:.3e} J; nothing was released", outcome.energy.max_error),
+        None => {
+            let error = outcome.energy.max_error;
+            let kinetic = first.map_or(0.0, |row| row.energy("kinetic"));
+            let of = if kinetic > 0.0 {
+                let share = error / kinetic;
+                format!(", {share:.2e} of the kinetic energy at the start")
+            } else {
+                String::new()
+            };
+            format!("{error:.3e} J{of}; nothing was released")
+        }
     };
     text += &format!("\n\nlargest energy error    {error}");
     text += &format!("\ndigest at the start     {}", outcome.digest.initial);

@@ -16,6 +16,7 @@ use crate::plot;
 use crate::raster::{Mask, Pixels, Raster, Rect};
 use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::Points;
+use loschmidt_runner::time_unit::TimeUnit;
 use std::cell::RefCell;
 
 /// A run in the picture.
@@ -402,8 +403,9 @@ impl Parts<'_> {
             ..self.style(self.em * 10 / 7)
         };
         // A state a hair before home is at home.
-        let time = format!("{:.3}", points.time).replace("-0.000", "0.000");
-        text::write(raster, &big, x, middle, &format!("{time} s"));
+        let unit = TimeUnit::of(self.home.span);
+        let time = format!("{:.3}", unit.count(points.time)).replace("-0.000", "0.000");
+        text::write(raster, &big, x, middle, &format!("{time} {}", unit.name));
         let small = TextStyle {
             colour,
             ..self.style(self.small())

@@ -14,7 +14,7 @@ pub struct HistoryPoint {
     pub way_back: bool,
     /// Kinetic energy, J (per m of depth in 2D, as the others).
     pub kinetic: f64,
-    /// Gravitational energy, J; of a model without gravity, all energies but the kinetic one.
+    /// Gravitational energy of a fluid, J; of other models, all energies but the kinetic one.
     pub potential: f64,
     /// The sum of the energies, J.
     pub total: f64,
@@ -32,7 +32,7 @@ impl From<&Row> for HistoryPoint {
             time: row.time_s,
             way_back: row.leg == 2,
             kinetic,
-            potential: if row.has_energy("gravitational") {
+            potential: if row.has_energy("internal") {
                 row.energy("gravitational")
             } else {
                 row.total - kinetic

@@ -6,6 +6,7 @@ use crate::colouring::round_number;
 use crate::history::{History, HistoryPoint};
 use crate::raster::{Mask, Pixels, Rect};
 use crate::text::{self, TextStyle, Weight};
+use loschmidt_runner::time_unit::TimeUnit;
 
 /// A curve and what it is called.
 pub struct HistoryCurve<'a> {
@@ -78,7 +79,8 @@ impl Plot<'_> {
         let below = (rect.y + rect.height) as i64 - em as i64 / 3;
         text::write(raster, &faint, rect.x as f64, below, "0");
         let right = (rect.x + rect.width) as f64;
-        let end = format!("{} s", number(self.span));
+        let unit = TimeUnit::of(self.span);
+        let end = format!("{} {}", number(unit.count(self.span)), unit.name);
         text::write_left_of(raster, &faint, right, below, &end);
         if rect.width > 12 * em {
             let middle = rect.x as f64 + 0.5 * rect.width as f64;

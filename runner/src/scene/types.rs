@@ -13,6 +13,7 @@ use super::solid::Solid;
 use super::step::StepRule;
 use super::wcsph::{Fluid, WallPotential, Water};
 use super::words::{Dimension, Integrator};
+use crate::time_unit::TimeUnit;
 
 keys! {
     /// A validated scene. Points have three coordinates; in two dimensions every z is 0.
@@ -173,6 +174,12 @@ impl Scene {
             (None, Some(turnaround)) => 2.0 * turnaround,
             (None, None) => 0.0,
         }
+    }
+
+    /// The unit in which people read the times of the scene.
+    #[must_use]
+    pub fn time_unit(&self) -> TimeUnit {
+        TimeUnit::of(self.steps_out() as f64 * self.time_step())
     }
 
     /// Steps until the turnaround, or of the whole run when there is none; at least 1.

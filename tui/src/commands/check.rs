@@ -6,7 +6,7 @@ use crate::exit::{Failure, USAGE};
 use crate::progress::duration;
 use loschmidt_core::Fault;
 use loschmidt_runner::run::Plan;
-use loschmidt_runner::scene::{load, resolve};
+use loschmidt_runner::scene::{Scene, Solid, load, resolve};
 use loschmidt_runner::setup;
 use loschmidt_runner::{Options, Player};
 use std::process::ExitCode;
@@ -36,7 +36,11 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     let mut text = String::new();
     let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
     line("scene", player.scene().name.clone());
-    line("particles", format!("{fluid} fluid, {walls} wall"));
+    let particles = match player.scene().solid {
+        Some(_) => format!("{fluid} solid"),
+        None => format!("{fluid} fluid, {walls} wall"),
+    };
+    line("particles", particles);
     let legs = match plan.back {
         0 => "one way".to_owned(),
         back => format!("{} out and {back} back", plan.out),
@@ -75,13 +79,20 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         line(name, verdict);
     };
     let fixed = setup::fixed_limits(player.scene());
-    for (name, rule) in [
-        ("acoustic", "0.4 h/c"),
-        (
-            "wall",
-            "0.5 r_wall/sqrt(2 E), a quarter of the stability limit of the contact",
-        ),
-    ] {
+    let rules: &[(&str, &str)] = match player.scene().solid {
+        Some(_) => &[(
+            "elastic",
+            "0.4 h/sqrt(c_L² + 4 c_p²), half of the stability limit",
+        )],
+        None => &[
+            ("acoustic", "0.4 h/c"),
+            (
+                "wall",
+                "0.5 r_wall/sqrt(2 E), a quarter of the stability limit of the contact",
+            ),
+        ],
+    };
+    for &(name, rule) in rules {
         let of_name = fixed
             .iter()
             .find(|(n, _)| *n == name)
@@ -93,8 +104,65 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         Ok(force) => limit("  force limit", force, rule),
         Err(fault) => line("  force limit", format!("unknown: {fault}")),
     }
+    if let Some(solid) = &player.scene().solid {
+        text += &elastic(player.scene(), solid);
+    }
     print(&text)
 }
+
+/// What the material is on the lattice of the scene.
+fn elastic(scene: &Scene, solid: &Solid) -> String {
+    let material = solid.material();
+    let constants = material.constants(solid.reference_density);
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
+    line(
+        "material",
+        format!("{}, small strains", solid.energy.word()),
+    );
+    let pascal = |x: f64| format!("{x:.4e} Pa");
+    line("  Young's modulus", pascal(constants.youngs_modulus));
+    line(
+        "  Poisson's ratio",
+        format!("{:.4}", constants.poissons_ratio),
+    );
+    line("  bulk modulus", pascal(constants.bulk_modulus));
+    line("  shear modulus", pascal(constants.shear_modulus));
+    let (c_l, c_s) = (material.longitudinal_speed(), material.shear_speed);
+    line(
+        "  waves",
+        format!("{c_l:.6} m/s longitudinal, {c_s:.6} m/s shear"),
+    );
+    let (h, p) = (
+        scene.support / 2.0,
+        material.penalty_speed / material.bulk_speed,
+    );
+    line("lattice", format!("h/dr = {h}, c_p/c_0 = {p:.3}"));
+    let mut seen = Vec::new();
+    for kind in scene.regions.iter().filter_map(|region| region.lattice) {
+        let Some(response) = setup::lattice_response(kind, scene.support) else {
+            continue;
+        };
+        if seen.contains(&kind) {
+            continue;
+        }
+        seen.push(kind);
+        let stiffness = response.bulk_stiffness(p);
+        let verdict = if (stiffness - 1.0).abs() > SPOILT {
+            "SPOILT by the penalty: set solid.penalty_speed to solid.bulk_speed"
+        } else {
+            "as given"
+        };
+        line(
+            &format!("  {}", kind.word()),
+            format!("{stiffness:.3} of the stiffness in bulk, {verdict}"),
+        );
+    }
+    text
+}
+
+/// Relative change of the bulk stiffness by the lattice from which on it is worth a warning.
+const SPOILT: f64 = 0.05;
 
 /// Seconds per step, tried from the initial state; the first step is left out, for it warms up.
 fn pace(player: &mut Player) -> Result<f64, Fault> {

@@ -86,7 +86,8 @@ fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<Exit
     if !work.quiet {
         announce(&run);
     }
-    let mut display = Display::new(work.quiet, done, total);
+    let unit = run.player().scene().time_unit();
+    let mut display = Display::new(work.quiet, unit, done, total);
     let result = run.execute(|progress| display.show(progress), stop);
     display.finish(result.is_ok());
     let outcome = result?;
@@ -100,7 +101,7 @@ fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<Exit
     } else {
         let mut text = String::new();
         if !work.quiet {
-            text += &format!("{}\n", report::table(&outcome, run.rows()));
+            text += &format!("{}\n", report::table(&outcome, run.rows(), unit));
             if let Some(path) = run.path() {
                 text += &format!("written to              {}\n", path.display());
             }

@@ -79,10 +79,12 @@ fn bar(raster: &mut Pixels<'_>, stage: &StagedScene, places: &Places, theme: &Th
     };
     let below = (y + 0.35 * em) as i64;
     let left = bar.x as f64 - em;
-    text::write_left_of(raster, &faint, left, below, "0 s");
+    let unit = stage.opened.scene.time_unit();
+    text::write_left_of(raster, &faint, left, below, &format!("0 {}", unit.name));
     let end = span as f64 * stage.opened.scene.time_step();
     let right = (bar.x + bar.width) as f64 + em;
-    text::write(raster, &faint, right, below, &format!("{} s", number(end)));
+    let end = format!("{} {}", number(unit.count(end)), unit.name);
+    text::write(raster, &faint, right, below, &end);
 }
 
 /// On the left what the simulation does; on the right a notice, or how many particles are astray,

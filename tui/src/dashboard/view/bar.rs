@@ -48,8 +48,10 @@ pub fn time(stage: &StagedScene, areas: &Areas, buf: &mut Buffer, ink: &Ink) {
     }
     buf[(now, bar.y)].set_char('●').set_style(ink.bold());
     let left = Rect::new(0, bar.y, bar.x.saturating_sub(1), 1);
-    write_right(buf, left, bar.y, &[("0 s".to_owned(), ink.faint())]);
-    let end = format!("{} s", short(span as f64 * dt));
+    let unit = stage.opened.scene.time_unit();
+    let zero = format!("0 {}", unit.name);
+    write_right(buf, left, bar.y, &[(zero, ink.faint())]);
+    let end = format!("{} {}", short(unit.count(span as f64 * dt)), unit.name);
     let right = Rect::new(
         bar.right() + 1,
         bar.y,
@@ -79,7 +81,12 @@ pub fn notice(
         } else {
             "integrating on"
         };
-        pieces.push((format!("{verb} to {time:.4} s: {percent} %"), ink.bold()));
+        let unit = stage.opened.scene.time_unit();
+        let (time, unit) = (unit.count(time), unit.name);
+        pieces.push((
+            format!("{verb} to {time:.4} {unit}: {percent} %"),
+            ink.bold(),
+        ));
         pieces.push(("   Esc stops".to_owned(), ink.faint()));
     } else if let Some(notice) = notice {
         let style = match notice.tone {

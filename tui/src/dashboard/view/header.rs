@@ -58,8 +58,12 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
 fn clock(stage: &StagedScene, columns: u16, ink: &Ink) -> Vec<Piece> {
     let status = &stage.status;
     let strong = ink.time().add_modifier(Modifier::BOLD);
+    let unit = stage.opened.scene.time_unit();
     let mut pieces = vec![
-        (format!(" t = {:.4} s ", status.time), strong),
+        (
+            format!(" t = {:.4} {} ", unit.count(status.time), unit.name),
+            strong,
+        ),
         (format!(" step {}  ", steps(status.position)), ink.faint()),
     ];
     let moving = status.seek.is_some() || (status.playing && !status.at_start);

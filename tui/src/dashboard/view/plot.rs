@@ -6,6 +6,7 @@ use super::ink::Ink;
 use super::numbers::short;
 use super::{width, write_right};
 use loschmidt_runner::run::Row;
+use loschmidt_runner::time_unit::TimeUnit;
 use loschmidt_viewer::{Rgb, Track};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -89,7 +90,8 @@ impl DotPlot<'_> {
             axes.bottom() - 1,
             &[(short(low), ink.faint())],
         );
-        let end = format!(" {} s", short(self.span));
+        let unit = TimeUnit::of(self.span);
+        let end = format!(" {} {}", short(unit.count(self.span)), unit.name);
         let x = axes.right().saturating_sub(width(&end));
         buf.set_string(x, axes.bottom(), end, ink.faint());
         buf.set_string(axes.x, axes.bottom(), "0 ", ink.faint());
