@@ -24,6 +24,7 @@ mod reversal;
 mod run_conservation;
 mod run_dam_break;
 mod run_faults;
+mod run_solids;
 mod setup_errors;
 mod snapshot_bytes;
 mod solid;

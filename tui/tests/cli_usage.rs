@@ -5,17 +5,21 @@ use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
 
-const CATALOGUE: [&str; 6] = [
+const CATALOGUE: [&str; 10] = [
     "dam-break",
     "dam-break-3d",
     "colliding-drops",
     "rotating-drop",
     "gresho-vortex",
     "kepler-ring",
+    "beryllium-plate",
+    "twisting-column",
+    "colliding-rings",
+    "cantilever",
 ];
 
 /// Makes a few dozen steps of a scene of the catalogue.
-const SHORT: [(&str, &[&str]); 6] = [
+const SHORT: [(&str, &[&str]); 8] = [
     ("dam-break", &["particle_spacing=0.1", "turnaround=0.02"]),
     (
         "dam-break-3d",
@@ -34,6 +38,14 @@ const SHORT: [(&str, &[&str]); 6] = [
         &["particle_spacing=0.05", "turnaround=0.02"],
     ),
     ("kepler-ring", &["particle_spacing=0.05", "turnaround=0.5"]),
+    (
+        "beryllium-plate",
+        &["particle_spacing=1e-3", "turnaround=1e-7"],
+    ),
+    (
+        "twisting-column",
+        &["particle_spacing=0.2", "turnaround=1e-3"],
+    ),
 ];
 
 #[test]

@@ -19,14 +19,30 @@ use super::backend::{Backend, Work};
 use super::lanes::{Quad, ROW, Reals};
 use super::meets::Meets;
 use loschmidt_core::Arithmetic;
+use loschmidt_core::fields::words_each;
 use loschmidt_core::number::Quantity;
 use loschmidt_core::set::Set;
 use std::ops::Range;
 
 /// How many times a layout is made in the same box.
 const BOX_LASTS: u32 = 16;
-/// Fewest particles worth a thread of their own.
-const PARTICLES_PER_THREAD: usize = 2000;
+/// Words of a particle for which a thread is worth its trouble: 2,000 particles of water in the
+/// plane, of nine words each.
+const WORDS_PER_THREAD: usize = 18_000;
+
+/// How many times as many neighbours as in the plane a particle has in space, about.
+const NEIGHBOURS_IN_SPACE: usize = 6;
+
+/// Fewest particles worth a thread of their own, for particles of so many words: a model works on
+/// each of them, and with each neighbour.
+fn particles_per_thread(dimension: usize, words: usize) -> usize {
+    let in_the_plane = WORDS_PER_THREAD / words.max(1);
+    let least = match dimension {
+        2 => in_the_plane,
+        _ => in_the_plane / NEIGHBOURS_IN_SPACE,
+    };
+    least.max(1)
+}
 /// Fewest strips: the first and the last of a part wait for others.
 const STRIPS_PER_THREAD: usize = 4;
 /// A strip: its slots begin with a row; its particles are stored one after another.
@@ -156,7 +172,8 @@ impl Layout {
         }
         self.box_for -= 1;
         self.sort::<A, D>(particles);
-        self.divide::<D>(crew.threads);
+        let words = words_each(particles.fields(), particles.side(), D);
+        self.divide(crew.threads, particles_per_thread(D, words));
         self.fill::<A, D>(particles.position());
         self.list_meetings::<D>(crew);
         self.travelled = 0.0;
@@ -179,10 +196,11 @@ impl Layout {
         (((x - self.origin[0]) * self.inverse_cell) as usize).min(self.columns - 1)
     }
 
-    /// Divides the strips among the threads, about as many particles for each.
-    fn divide<const D: usize>(&mut self, threads: usize) {
+    /// Divides the strips among the threads, about as many particles for each, and not fewer than
+    /// `least`.
+    fn divide(&mut self, threads: usize, least: usize) {
         let (count, particles) = (self.strips.len() - 1, self.order.len());
-        let parts = (particles / PARTICLES_PER_THREAD)
+        let parts = (particles / least)
             .min(count / STRIPS_PER_THREAD)
             .clamp(1, threads);
         self.parts.clear();

@@ -53,6 +53,9 @@ fn name<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene, stem: &
 
 /// Walls that act by a potential need one.
 fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
+    if scene.solid.is_some() {
+        return;
+    }
     let model = builder.word(top, "wall_model");
     let wall = scene
         .regions

@@ -180,7 +180,9 @@ impl<'a> Builder<'a> {
     fn require(&mut self, here: Here<'a>, key: &'static SceneKey) {
         let name = key.name;
         // One message for one mistake: the misspelt key is reported already.
-        if key.default != IfAbsent::Required || !self.has(key) || here.misspells(name) {
+        // What an unknown model needs is not known either.
+        let needed = key.family.is_none() || self.family.is_some_and(|_| self.has(key));
+        if key.default != IfAbsent::Required || !needed || here.misspells(name) {
             return;
         }
         let message = match (here.rules.form, key.kind) {

@@ -139,7 +139,9 @@ impl Checker<'_> {
         let twin = rules
             .keys
             .iter()
-            .find(|other| other.kind == key.kind && other.only == Some(dimension));
+            .find(|other| other.kind == key.kind && other.only == Some(dimension))
+            // Shapes of one kind stand for each other; numbers of one kind do not.
+            .filter(|twin| twin.kind.is_table());
         let help = match twin {
             Some(twin) => format!(
                 "in {} dimensions write `{}`: {}",

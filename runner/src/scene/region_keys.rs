@@ -76,8 +76,14 @@ pub(super) static VELOCITY: TableRules = TableRules {
             .of(solid::FAMILY)
             .only(Two)
             .means("alpha of s = alpha (x - start)"),
-        key("a1", Number).of(solid::FAMILY).only(Two).means("a1"),
-        key("a2", Number).of(solid::FAMILY).only(Two).means("a2"),
+        key("a1", Number)
+            .of(solid::FAMILY)
+            .only(Two)
+            .means("a1, the weight of sinh s + sin s"),
+        key("a2", Number)
+            .of(solid::FAMILY)
+            .only(Two)
+            .means("a2, the weight of cosh s + cos s"),
         key("start", Number)
             .unit("m")
             .of(solid::FAMILY)

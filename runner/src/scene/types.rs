@@ -33,8 +33,9 @@ keys! {
         end: Option<f64> = Optional, Above(0.0),
             "time at which the run stops, both legs added; absent: twice the turnaround", "s";
         model: Model = Word(Model::Symplectic.word()), Any,
-            "density by summation (reversible), advanced in time, \
-             or summed with a filter of noise (dissipative)";
+            "water: density by summation (reversible), advanced in time, \
+             or summed with a filter of noise (dissipative); elastic bodies: \
+             reversible, or with the midpoint integrator of the paper";
         integrator: Integrator = Word(Integrator::StormerVerlet.word()), Any,
             "composition of drifts and kicks in a step";
         /// The settings of the weakly compressible models.

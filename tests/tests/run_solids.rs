@@ -1,0 +1,166 @@
+//! Runs of the scenes of elastic bodies.
+
+use loschmidt_runner::scene::Scene;
+use loschmidt_tests::permitted;
+use loschmidt_tests::program::{
+    assert_same_way_back, every_way, fastest, player, run, scene, serial,
+};
+
+/// Small editions of the scenes: name, what is set, digests at home and after some steps.
+const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 4] = [
+    ("beryllium-plate", &["particle_spacing=1e-3"], 200, ["", ""]),
+    (
+        "twisting-column",
+        &[
+            "particle_spacing=0.2",
+            "region.1.shape.box.max=[0.5, 0.5, 2.0]",
+        ],
+        60,
+        ["", ""],
+    ),
+    (
+        "colliding-rings",
+        &["particle_spacing=0.0025"],
+        200,
+        ["", ""],
+    ),
+    ("cantilever", &["particle_spacing=0.004"], 200, ["", ""]),
+];
+
+fn golden(n: usize) -> (Scene, u64, [&'static str; 2]) {
+    let (name, set, steps, digests) = GOLDEN[n];
+    (scene(name, set), steps, digests)
+}
+
+/// Every executor, instruction set, number of threads and order of storage: the same digests, and
+/// back to the first bit.
+fn check(n: usize) {
+    let (scene, steps, digests) = golden(n);
+    for options in every_way() {
+        let mut player = player(scene.clone(), options.clone());
+        let home = player.digest();
+        player.advance(steps).unwrap();
+        let there = player.digest();
+        let found = [home.to_string(), there.to_string()];
+        assert_eq!(found, digests, "{}, {options:?}", scene.name);
+        player.reverse();
+        player.advance(steps).unwrap();
+        player.reverse();
+        assert_eq!(player.digest(), home, "{}, {options:?}", scene.name);
+    }
+}
+
+#[test]
+fn golden_digests_of_the_plate_on_every_executor() {
+    check(0);
+}
+
+#[test]
+fn golden_digests_of_the_column_on_every_executor() {
+    check(1);
+}
+
+#[test]
+fn golden_digests_of_the_rings_on_every_executor() {
+    check(2);
+}
+
+#[test]
+fn golden_digests_of_the_cantilever_on_every_executor() {
+    check(3);
+}
+
+/// With the paper's support, penalty and time step: its Fig. 3 has 5e-6.
+#[test]
+fn the_plate_keeps_its_energy_over_a_period_and_is_unrung() {
+    let set = [
+        "particle_spacing=1e-3",
+        "support=3.0",
+        "solid.penalty_speed=90465.9",
+        "time_step=3.618e-9",
+        "output.rows=2000",
+    ];
+    let (outcome, rows) = run(scene("beryllium-plate", &set), fastest(2));
+    assert_eq!(outcome.reversed_exactly, Some(true));
+    assert!(outcome.momentum.exactly_constant);
+    let error = outcome.energy.max_error / rows[0].energy("kinetic");
+    println!("energy error {error:e}");
+    assert!(error < permitted::ENERGY_OF_THE_PLATE, "{error:e}");
+    // It has rung: half a period away the plate is at rest, and bent.
+    let least = rows.iter().fold(1.0, |least: f64, row| {
+        least.min(row.energy("kinetic") / rows[0].energy("kinetic"))
+    });
+    assert!(least < 0.1, "{least}");
+    assert_same_way_back(&rows);
+}
+
+/// The same plate with the integrator of the paper: as accurate, and not undone.
+#[test]
+fn the_papers_integrator_is_as_accurate_and_does_not_return() {
+    let set = |model: &str| {
+        vec![
+            "particle_spacing=1e-3".to_owned(),
+            "turnaround=3e-6".to_owned(),
+            format!("model={model}"),
+        ]
+    };
+    let [ours, paper] = ["solid", "solid-midpoint"].map(|model| {
+        let set = set(model);
+        let set: Vec<&str> = set.iter().map(String::as_str).collect();
+        run(scene("beryllium-plate", &set), fastest(2))
+    });
+    assert_eq!(ours.0.reversed_exactly, Some(true));
+    assert_eq!(paper.0.reversed_exactly, Some(false));
+    // It is symmetric in time, so it comes back up to rounding.
+    let away = paper.0.max_return_error_m.unwrap();
+    assert!(
+        away > 0.0 && away < permitted::RETURN_OF_THE_MIDPOINT,
+        "{away:e}"
+    );
+    let [a, b] = [ours, paper].map(|(outcome, _)| outcome.energy.max_error);
+    assert!(
+        (a / b - 1.0).abs() < permitted::INTEGRATORS_OF_A_SOLID,
+        "{a} {b}"
+    );
+}
+
+/// In floating point the same run does not return: the control experiment.
+#[test]
+fn in_floating_point_a_solid_does_not_return() {
+    let set = ["particle_spacing=1e-3", "turnaround=3e-6"];
+    let options = loschmidt_tests::program::float(fastest(2));
+    let (outcome, _) = run(scene("beryllium-plate", &set), options);
+    assert_eq!(outcome.reversed_exactly, Some(false));
+}
+
+/// A saved state goes on with another executor as if nothing had happened.
+#[test]
+fn a_saved_solid_goes_on() {
+    let (scene, steps, digests) = golden(0);
+    let mut first = player(scene.clone(), serial());
+    first.advance(steps / 2).unwrap();
+    let saved = first.save();
+    let mut second = player(scene, fastest(2));
+    let (position, arrow) = (first.position(), first.arrow());
+    second.restore(&saved, position, arrow).unwrap();
+    second.advance(steps - steps / 2).unwrap();
+    assert_eq!(second.digest().to_string(), digests[1]);
+}
+
+/// A clamp never moves, and the beam swings about its static deflection.
+#[test]
+fn the_clamp_of_the_cantilever_stands_still() {
+    let set = ["particle_spacing=0.004", "turnaround=0.02"];
+    let scene = scene("cantilever", &set);
+    let initial = scene.initial_state().unwrap();
+    let [beam, clamp] = [initial.parts[0], initial.parts[1]];
+    assert!(!beam.held && clamp.held && beam.body == clamp.body);
+    let mut player = player(scene, fastest(2));
+    let home = player.save();
+    player.advance(500).unwrap();
+    let there = player.save();
+    let moved = |n: usize| home.position(n) != there.position(n);
+    let particles = initial.fluid.len();
+    assert!((clamp.first as usize..particles).all(|n| !moved(n)));
+    assert!((0..clamp.first as usize).all(moved));
+}
