@@ -71,18 +71,18 @@ impl<W: Quantity, const D: usize> Lift<'_, W, D> {
     fn in_space(&mut self) {
         let (d1, d2) = (self.m[0][0], self.m[1][1]);
         let d = [d1, d2, -(d1 + d2)];
-        self.from_others(0, 0.5, &d);
-        self.to_all(0.5, &d);
-        self.from_others(1, 0.5, &d);
-        self.from_others(2, 1.0, &d);
-        self.from_others(1, 0.5, &d);
-        self.to_all(0.5, &d);
-        self.from_others(0, 0.5, &d);
+        self.add_others(0, 0.5, &d);
+        self.shift_all(0.5, &d);
+        self.add_others(1, 0.5, &d);
+        self.add_others(2, 1.0, &d);
+        self.add_others(1, 0.5, &d);
+        self.shift_all(0.5, &d);
+        self.add_others(0, 0.5, &d);
     }
 
     /// X, Y or Z.
     #[inline(always)]
-    fn from_others(&mut self, c: usize, s: f64, d: &[f64; 3]) {
+    fn add_others(&mut self, c: usize, s: f64, d: &[f64; 3]) {
         let (a, b) = ([1, 0, 0][c], [2, 2, 1][c]);
         let of_a = (self.m[a][c] - d[a]) * self.value(a);
         let of_b = (self.m[b][c] - d[b]) * self.value(b);
@@ -91,7 +91,7 @@ impl<W: Quantity, const D: usize> Lift<'_, W, D> {
 
     /// W.
     #[inline(always)]
-    fn to_all(&mut self, s: f64, d: &[f64; 3]) {
+    fn shift_all(&mut self, s: f64, d: &[f64; 3]) {
         let of_first = d[0] * self.row[0].difference(self.row[2]);
         let of_second = d[1] * self.row[1].difference(self.row[2]);
         let k = self.rounded(s * (of_first + of_second));

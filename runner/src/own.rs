@@ -57,6 +57,15 @@ pub fn register(model: OwnModel) {
     scene::Model::know(model.name);
 }
 
+/// The columns of all of them.
+pub(crate) fn columns() -> Vec<Measure> {
+    let own = OWN.read().unwrap_or_else(PoisonError::into_inner);
+    own.iter()
+        .flat_map(|model| model.columns)
+        .copied()
+        .collect()
+}
+
 /// The model of this name.
 pub(crate) fn find(name: &str) -> Option<OwnModel> {
     let own = OWN.read().unwrap_or_else(PoisonError::into_inner);

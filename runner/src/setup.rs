@@ -106,6 +106,20 @@ pub fn columns(scene: &Scene) -> &'static [Measure] {
     }
 }
 
+/// The columns of every model that this program knows.
+#[must_use]
+pub fn every_column() -> Vec<Measure> {
+    let mut all = <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS.to_vec();
+    let more = <Solid<Fixed, 3> as Model<Fixed, 3>>::COLUMNS.iter();
+    let own = own::columns();
+    for measure in more.chain(&own) {
+        if !all.contains(measure) {
+            all.push(*measure);
+        }
+    }
+    all
+}
+
 /// What a particle of the scene consists of.
 fn fields(scene: &Scene) -> &'static [Field] {
     match (own_of(scene), scene.solid) {

@@ -59,7 +59,7 @@ fn golden(n: usize) -> (Scene, u64, [&'static str; 2]) {
 fn check(n: usize) {
     let (scene, steps, digests) = golden(n);
     for options in every_way() {
-        let mut player = player(scene.clone(), options.clone());
+        let mut player = player(scene.clone(), options);
         let home = player.digest();
         player.advance(steps).unwrap();
         let there = player.digest();

@@ -1,7 +1,7 @@
 //! The command line.
 
 use crate::exit::{Failure, USAGE};
-use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use loschmidt_reproduce::Target;
@@ -264,9 +264,9 @@ pub struct MovieArguments {
     /// [default: 12, or what a finished run has frames for]
     #[arg(long, value_name = "S", value_parser = seconds)]
     pub seconds: Option<f64>,
-    /// What the colours say
-    #[arg(long, default_value = "speed")]
-    pub color: ColorName,
+    /// What the colours say: some are columns of one model alone
+    #[arg(long, value_name = "NAME", default_value = "speed", value_parser = colouring())]
+    pub color: Colouring,
     /// Colour map [default: the one that suits the colours]
     #[arg(long)]
     pub colormap: Option<ColormapName>,
@@ -301,31 +301,22 @@ pub enum CompareName {
     Float,
 }
 
-/// Names of the colourings.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ColorName {
-    /// Speed
-    Speed,
-    /// Density
-    Density,
-    /// Pressure
-    Pressure,
-    /// Height at the start
-    InitialHeight,
-    /// Distance from the place at the start
-    Displacement,
-}
-
-impl From<ColorName> for Colouring {
-    fn from(name: ColorName) -> Self {
-        match name {
-            ColorName::Speed => Self::Speed,
-            ColorName::Density => Self::DENSITY,
-            ColorName::Pressure => Self::PRESSURE,
-            ColorName::InitialHeight => Self::InitialHeight,
-            ColorName::Displacement => Self::Displacement,
-        }
-    }
+/// Reads what the colours say.
+fn colouring() -> impl TypedValueParser<Value = Colouring> {
+    let values = Colouring::known().into_iter().map(|colouring| {
+        let help = match &colouring {
+            Colouring::Speed => "Speed".to_owned(),
+            Colouring::InitialHeight => "Height at the start".to_owned(),
+            Colouring::Displacement => "Distance from the place at the start".to_owned(),
+            other => {
+                let title = other.title();
+                let (first, rest) = title.split_at(1);
+                first.to_uppercase() + rest
+            }
+        };
+        PossibleValue::new(colouring.name()).help(help)
+    });
+    PossibleValuesParser::new(values).map(|name| Colouring::by_name(&name).unwrap_or_default())
 }
 
 /// Names of the colour maps.

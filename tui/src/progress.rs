@@ -1,5 +1,6 @@
 //! Progress on standard error: a bar on a terminal, a line now and then elsewhere.
 
+use crate::brief::brief;
 use crate::exit::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use loschmidt_runner::run::Progress;
@@ -136,22 +137,10 @@ fn energies(progress: &Progress<'_>, unit: TimeUnit) -> String {
     // Short enough for one line of 80 columns: a wrapped bar cannot be redrawn cleanly.
     let mut text = format!("t {:.4} {}  J:", unit.count(row.time_s), unit.name);
     for (kind, energy) in row.energies.iter().take(4) {
-        let brief: String = kind.chars().take(brief_length(kind)).collect();
-        text += &format!(" {brief} {energy:.0}");
+        text += &format!(" {} {energy:.0}", brief(kind));
     }
     let error = row.total - home.total;
     text + &format!(" error {error:+.1e}  S {:.3}", row.entropy)
-}
-
-/// Longest name of an energy where there is little room.
-const BRIEF: usize = 4;
-
-/// How much of a name is enough to know it by.
-fn brief_length(kind: &str) -> usize {
-    match kind {
-        "kinetic" | "internal" => 3,
-        _ => BRIEF,
-    }
 }
 
 /// Seconds for people: 48 s, 12 min 30 s, 2 h 05 min.

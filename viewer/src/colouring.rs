@@ -3,7 +3,8 @@
 use crate::colour::{Colormap, Rgb};
 use crate::home::Home;
 use loschmidt_core::model::Measure;
-use loschmidt_runner::Points;
+use loschmidt_runner::scene::Scene;
+use loschmidt_runner::{Points, setup};
 use std::sync::Arc;
 
 /// What the colour of a particle says.
@@ -53,22 +54,37 @@ impl Colouring {
             .collect()
     }
 
-    /// The name used on the command line.
+    /// Those of every model of the program that a number and a legend belong to.
     #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub fn known() -> Vec<Self> {
+        Self::choices(setup::every_column().into_iter())
+    }
+
+    /// The name used on the command line: small letters, and hyphens between words.
+    #[must_use]
+    pub fn name(&self) -> String {
         match self {
-            Self::Speed => "speed",
-            Self::Column(measure) => measure.name,
-            Self::InitialHeight => "initial-height",
-            Self::Displacement => "displacement",
-            Self::Picture(_) => "picture",
+            Self::Speed => "speed".to_owned(),
+            Self::Column(measure) => measure.name.to_lowercase().replace(' ', "-"),
+            Self::InitialHeight => "initial-height".to_owned(),
+            Self::Displacement => "displacement".to_owned(),
+            Self::Picture(_) => "picture".to_owned(),
         }
     }
 
-    /// The measured one of this name.
+    /// The known one of this name.
     #[must_use]
     pub fn by_name(name: &str) -> Option<Self> {
-        Self::MEASURED.into_iter().find(|c| c.name() == name)
+        Self::known().into_iter().find(|c| c.name() == name)
+    }
+
+    /// Whether particles of this scene have what it shows.
+    #[must_use]
+    pub fn fits(&self, scene: &Scene) -> bool {
+        match self {
+            Self::Column(measure) => setup::columns(scene).contains(measure),
+            _ => true,
+        }
     }
 
     /// Title of the legend.
@@ -99,6 +115,7 @@ impl Colouring {
     pub fn colormap(&self) -> Colormap {
         match self {
             Self::Speed | Self::Picture(_) | Self::InitialHeight => Colormap::Viridis,
+            Self::Column(measure) if ONE_SIDED.contains(&measure.name) => Colormap::Viridis,
             Self::Column(_) => Colormap::CoolWarm,
             Self::Displacement => Colormap::Magma,
         }
@@ -110,6 +127,9 @@ impl Colouring {
         let u2 = home.speed * home.speed;
         match self {
             Self::Speed => [0.0, round_number(home.speed)],
+            Self::Column(measure) if let Some(shear_speed) = home.shear_speed => {
+                range_of_a_solid(measure, home, shear_speed)
+            }
             Self::Column(measure) if measure.name == "density" => {
                 let swing = round_number(3.0 * u2 / (home.sound_speed * home.sound_speed));
                 [1.0 - swing, 1.0 + swing].map(|x| x * home.reference_density)
@@ -157,6 +177,27 @@ impl Colouring {
                 length(std::array::from_fn(|k| x[k] - f64::from(h[k] as f32)))
             }
             Self::Picture(_) => 0.0,
+        }
+    }
+}
+
+/// Columns that are nowhere negative.
+const ONE_SIDED: [&str; 2] = ["von Mises stress", "strain energy"];
+
+/// What a column of an elastic body can come to: a body that moves with the speed u is strained by
+/// about u/c, and its stress is about rho c u.
+fn range_of_a_solid(measure: &Measure, home: &Home, shear_speed: f64) -> [f64; 2] {
+    let (u, density) = (0.5 * home.speed, home.reference_density);
+    let around = |x: f64, swing: f64| [x - swing, x + swing];
+    match measure.name {
+        "density" => around(1.0, round_number(u / home.sound_speed)).map(|x| x * density),
+        "pressure" => around(0.0, round_number(density * shear_speed * u)),
+        "von Mises stress" => [0.0, round_number(2.0 * density * shear_speed * u)],
+        "strain energy" => [0.0, round_number(0.5 * u * u)],
+        name => {
+            let diagonal = matches!(name.as_bytes(), [.., a, b] if a == b);
+            let swing = round_number((2.0 * u / shear_speed).min(1.0));
+            around(f64::from(u8::from(diagonal)), swing)
         }
     }
 }

@@ -73,6 +73,8 @@ pub struct Home {
     pub reference_density: f64,
     /// Sound speed, m/s.
     pub sound_speed: f64,
+    /// Of shear waves in an elastic body, m/s; none in other matter.
+    pub shear_speed: Option<f64>,
     /// The scale U of speeds, m/s.
     pub speed: f64,
     /// The axis against gravity: 0 x, 1 y, 2 z. It is y where there is no gravity.
@@ -126,6 +128,7 @@ impl Home {
             spacing,
             reference_density: scene.reference_density(),
             sound_speed: scene.sound_speed(),
+            shear_speed: scene.solid.map(|solid| solid.shear_speed),
             speed: if speed > 0.0 {
                 speed
             } else {

@@ -115,18 +115,16 @@ pub enum SceneError {
          help: particles of different bodies begin at least one support radius apart, {reach} m; \
          regions of one `body` may touch",
         coordinates(.point),
-        .first.0,
-        .first.1,
-        .second.0,
-        .second.1
+        .regions[0].0,
+        .regions[0].1,
+        .regions[1].0,
+        .regions[1].1
     )]
     BodiesTooNear {
         /// Name of the scene.
         scene: String,
-        /// Number of the first region in file order, from 0, and its description.
-        first: (usize, String),
-        /// Number of the second region and its description.
-        second: (usize, String),
+        /// Numbers of the regions in file order, from 0, and their descriptions.
+        regions: Box<[(usize, String); 2]>,
         /// The point, m; as many coordinates as dimensions.
         point: Vec<f64>,
         /// The least distance, m.

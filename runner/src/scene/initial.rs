@@ -341,10 +341,10 @@ impl Scene {
                     && bodies[first] != bodies[second]
                     && let Some(point) = too_near(points, others, reach, axes)
                 {
+                    let region = |n| (n, describe(&self.regions[n], self.dimension));
                     return Err(SceneError::BodiesTooNear {
                         scene: self.name.clone(),
-                        first: (first, describe(&self.regions[first], self.dimension)),
-                        second: (second, describe(&self.regions[second], self.dimension)),
+                        regions: Box::new([region(first), region(second)]),
                         point: point[..axes].to_vec(),
                         reach,
                     });

@@ -130,15 +130,6 @@ impl Scene {
         }
     }
 
-    /// The key that sets the speed of sound, with its value in m/s.
-    #[must_use]
-    pub fn sound_key(&self) -> (&'static str, f64) {
-        match self.solid {
-            Some(solid) => ("solid.bulk_speed", solid.bulk_speed),
-            None => ("fluid.sound_speed", self.sound_speed()),
-        }
-    }
-
     /// The speed that limits the time step, m/s: that of sound, and in a solid with what
     /// [`Solid::step_speed`] adds.
     #[must_use]

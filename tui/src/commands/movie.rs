@@ -11,7 +11,7 @@ use loschmidt_viewer::movie::{
     Ending, Fate, Movie, MovieError, MovieStyle, Stored, free_directory,
 };
 use loschmidt_viewer::movie::{gif, mp4};
-use loschmidt_viewer::{Look, Picture};
+use loschmidt_viewer::{Colouring, Look, Picture};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
@@ -47,7 +47,7 @@ fn of_scene(
     scene: Scene,
     stop: &AtomicBool,
 ) -> Result<ExitCode, Failure> {
-    let style = style(arguments, tint, SECONDS)?;
+    let style = style(arguments, tint, SECONDS, &scene)?;
     let options = options(arguments)?;
     let arithmetics: &[ArithmeticKind] = match arguments.compare {
         None => &[ArithmeticKind::Fixed],
@@ -99,7 +99,7 @@ fn of_run(
     }
     let run = Stored::open(path)?;
     let seconds = run.frames() as f64 / f64::from(arguments.fps);
-    let style = style(arguments, tint, seconds)?;
+    let style = style(arguments, tint, seconds, run.scene())?;
     run.suffices(&style)?;
     let mut movie = create(arguments, style, &run.scene().name, &run.identity())?;
     announce(arguments, &movie);
@@ -127,7 +127,9 @@ fn style(
     arguments: &MovieArguments,
     tint: Option<Picture>,
     seconds: f64,
+    scene: &Scene,
 ) -> Result<MovieStyle, Failure> {
+    refuse_foreign_colours(&arguments.color, scene)?;
     let seconds = arguments.seconds.unwrap_or(seconds);
     let pictures = (seconds * f64::from(arguments.fps)).round() as usize;
     if !(2..=MOST_PICTURES).contains(&pictures) {
@@ -145,13 +147,34 @@ fn style(
         fps: arguments.fps,
         pictures,
         look: Look {
-            colouring: arguments.color.into(),
+            colouring: arguments.color.clone(),
             colormap: arguments.colormap.map(Into::into),
             theme: arguments.theme.into(),
             ..Look::default()
         },
         tint,
     })
+}
+
+/// Colours by a number that the particles of the scene do not have.
+fn refuse_foreign_colours(colouring: &Colouring, scene: &Scene) -> Result<(), Failure> {
+    if colouring.fits(scene) {
+        return Ok(());
+    }
+    let columns = setup::columns(scene).iter().copied();
+    let names: Vec<String> = Colouring::choices(columns)
+        .iter()
+        .map(Colouring::name)
+        .collect();
+    Err(Failure::new(
+        USAGE,
+        format!(
+            "error: particles of `{}` have no {}\nhelp: they have {}",
+            scene.name,
+            colouring.title(),
+            names.join(", ")
+        ),
+    ))
 }
 
 fn create(

@@ -8,8 +8,8 @@ use loschmidt_runner::scene::Scene;
 /// The panel of parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Panel {
-    /// The key of the speed of sound.
-    sound_key: &'static str,
+    /// Whether the scene is one of solids, whose speed of sound has another key.
+    solid: bool,
     /// Values as they are typed, in the order of [`Panel::FIELDS`].
     pub values: [String; 4],
     /// The values before.
@@ -36,6 +36,8 @@ impl Panel {
     const INTEGRATOR: usize = 2;
     /// The field of the speed of sound, whose key depends on the model.
     const SOUND: usize = 1;
+    /// Its key in a scene of solids.
+    const SOUND_OF_SOLIDS: &'static str = "solid.bulk_speed";
     /// The field of the threads, which are no key of a scene.
     const THREADS: usize = 3;
 
@@ -44,14 +46,17 @@ impl Panel {
     pub fn new(scene: &Scene, options: &Options) -> Self {
         let values = [
             scene.particle_spacing.to_string(),
-            scene.sound_key().1.to_string(),
+            scene
+                .solid
+                .map_or(scene.sound_speed(), |solid| solid.bulk_speed)
+                .to_string(),
             scene.integrator.word().to_owned(),
             options.threads.to_string(),
         ];
         Self {
             before: values.clone(),
             values,
-            sound_key: scene.sound_key().0,
+            solid: scene.solid.is_some(),
             field: 0,
             fresh: true,
             problem: None,
@@ -122,10 +127,9 @@ impl Panel {
         let mut set = open.set.clone();
         let mut changed = false;
         for (n, (_, _, key)) in Self::FIELDS.iter().enumerate() {
-            let key = if n == Self::SOUND {
-                self.sound_key
-            } else {
-                *key
+            let key = match (n == Self::SOUND, self.solid) {
+                (true, true) => Self::SOUND_OF_SOLIDS,
+                _ => *key,
             };
             if n != Self::THREADS && self.values[n] != self.before[n] {
                 set.retain(|old| !old.starts_with(&format!("{key}=")));

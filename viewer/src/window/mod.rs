@@ -65,7 +65,8 @@ pub struct WindowArguments {
     /// Tint the fluid with this PNG, laid over its initial state
     #[arg(long, value_name = "PNG")]
     pub tint: Option<PathBuf>,
-    /// What the colours say: speed, density, pressure, initial-height, displacement
+    /// What the colours say: speed, density, pressure, initial-height, displacement; of solids
+    /// also von-mises-stress, strain-energy, distortion-xx and so on
     #[arg(long, value_name = "NAME", value_parser = colour)]
     pub color: Option<Colouring>,
     /// Colours of the window
@@ -87,8 +88,11 @@ pub struct WindowArguments {
 }
 
 fn colour(text: &str) -> Result<Colouring, String> {
-    let names = Colouring::MEASURED.map(|c| c.name());
-    Colouring::by_name(text).ok_or_else(|| format!("one of {}", names.join(", ")))
+    Colouring::by_name(text).ok_or_else(|| {
+        let known = Colouring::known();
+        let names: Vec<String> = known.iter().map(Colouring::name).collect();
+        format!("one of {}", names.join(", "))
+    })
 }
 
 fn size(text: &str) -> Result<(usize, usize), String> {

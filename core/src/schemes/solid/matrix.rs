@@ -67,11 +67,11 @@ pub(super) fn adjugate<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
         adj[1][0] = -a[1][0];
         adj[1][1] = a[0][0];
     } else {
-        for i in 0..D {
-            for j in 0..D {
+        for (i, row) in adj.iter_mut().enumerate() {
+            for (j, x) in row.iter_mut().enumerate() {
                 let (r, s) = ((j + 1) % D, (j + 2) % D);
                 let (p, q) = ((i + 1) % D, (i + 2) % D);
-                adj[i][j] = a[r][p] * a[s][q] - a[r][q] * a[s][p];
+                *x = a[r][p] * a[s][q] - a[r][q] * a[s][p];
             }
         }
     }

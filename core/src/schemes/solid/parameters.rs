@@ -101,7 +101,7 @@ impl<const D: usize> Parameters<D> {
             integrator: &STORMER_VERLET,
             // Bodies move much slower than sound: the bins end at a sixth of it.
             speed_bin: self.sound_speed() / (6.0 * BINS as f64),
-            grids: [grid.clone(), grid],
+            grids: [grid; 2],
         })
     }
 

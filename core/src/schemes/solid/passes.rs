@@ -250,8 +250,8 @@ impl<const D: usize> PairPass<D> for ForcePass {
         let mut term = *x_ij;
         for (d, term) in term.iter_mut().enumerate() {
             let mut traction = (i.shear[d][0] + j.shear[d][0]) * x_ij[0];
-            for c in 1..D {
-                traction = traction + (i.shear[d][c] + j.shear[d][c]) * x_ij[c];
+            for (c, x) in x_ij.iter().enumerate().skip(1) {
+                traction = traction + (i.shear[d][c] + j.shear[d][c]) * *x;
             }
             *term = own * traction + radial * *term;
         }

@@ -4,6 +4,7 @@ use super::ink::Ink;
 use super::numbers::{energy_unit, error, fixed};
 use super::plot::{DotCurve, DotPlot};
 use super::{Piece, width};
+use crate::brief::brief;
 use loschmidt_runner::run::Row;
 use loschmidt_viewer::Rgb;
 use loschmidt_viewer::session::StagedScene;
@@ -103,15 +104,6 @@ fn parts(row: &Row, ink: &Ink) -> Vec<EnergyCurve> {
     };
     let total: EnergyCurve = ("total".into(), theme.text, Box::new(|row: &Row| row.total));
     kinds.map(part).chain([total]).collect()
-}
-
-/// The name where there is little room.
-fn brief(kind: &str) -> &str {
-    match kind {
-        "kinetic" => "kin",
-        "internal" => "int",
-        other => other.get(..4).filter(|_| other != "total").unwrap_or(other),
-    }
 }
 
 /// Writes groups of pieces in rows below the title; how many rows it took.
