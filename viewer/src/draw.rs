@@ -434,7 +434,10 @@ impl Parts<'_> {
         let colouring = &self.look.colouring;
         let unit = colouring.unit();
         let style = self.style(self.small());
-        let title = format!("{} / {unit}", colouring.title());
+        let title = match unit {
+            "" => colouring.title().to_owned(),
+            unit => format!("{} / {unit}", colouring.title()),
+        };
         let title = text::fitted(&style, &title, rect.width as f64);
         let size = style.size;
         text::write(

@@ -113,13 +113,15 @@ impl Home {
             Box3::around(frame.wall_position.iter()).map(|b| b.grown(0.5 * spacing, dimension));
         let shown = match walls {
             Some(walls) => walls.joined(fluid),
+            None if scene.solid.is_some() => fluid.grown(swing(frame, fluid, span), dimension),
             None => fluid.grown(free_flight(frame, fluid, span), dimension),
         };
         let gravity = scene.gravity.uniform;
         let up = (0..3)
             .filter(|&k| gravity[k] != 0.0)
             .max_by(|&a, &b| gravity[a].abs().total_cmp(&gravity[b].abs()))
-            .unwrap_or(1);
+            // A column in space stands along z.
+            .unwrap_or(if scene.solid.is_some() { dimension - 1 } else { 1 });
         let fall = 2.0 * gravity[up].abs() * fluid.size()[up];
         let speed = fall.sqrt().max(2.0 * fastest(frame));
         Self {
@@ -179,11 +181,19 @@ fn free_flight(frame: &Frame, fluid: Box3, span: f64) -> f64 {
     (0.5 * fastest(frame) * span).clamp(0.25 * largest, 2.0 * largest)
 }
 
+/// As [`free_flight`], for bodies: they fly and swing with the mean of their speeds, m.
+fn swing(frame: &Frame, bodies: Box3, span: f64) -> f64 {
+    let largest = bodies.size().into_iter().fold(0.0, f64::max);
+    let speeds = frame.velocity.iter().map(length);
+    let mean = speeds.sum::<f64>() / frame.velocity.len().max(1) as f64;
+    (0.5 * mean * span).clamp(0.1 * largest, 2.0 * largest)
+}
+
+fn length(v: &[f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
 /// The largest speed, m/s.
 fn fastest(frame: &Frame) -> f64 {
-    let squares = frame
-        .velocity
-        .iter()
-        .map(|v| v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    squares.fold(0.0, f64::max).sqrt()
+    frame.velocity.iter().map(length).fold(0.0, f64::max)
 }

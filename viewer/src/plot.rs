@@ -324,15 +324,17 @@ pub fn entropy(
 /// An energy for people.
 fn joules(x: f64) -> String {
     let text = number(x);
-    let gap = if text.ends_with(['k', 'M']) { "" } else { " " };
+    let gap = if text.ends_with(['k', 'M', 'G']) { "" } else { " " };
     text + gap + "J"
 }
 
-/// A number for people: three digits that count, and k or M for thousands and millions.
+/// A number for people: three digits that count, and k, M or G for thousands, millions and
+/// thousands of millions.
 #[must_use]
 pub fn number(x: f64) -> String {
     let size = x.abs();
     let (value, unit) = match size {
+        s if s >= 999.5e6 => (x / 1e9, "G"),
         s if s >= 999_500.0 => (x / 1e6, "M"),
         s if s >= 9_995.0 => (x / 1e3, "k"),
         _ => (x, ""),
