@@ -4,7 +4,7 @@ use crate::exit::{Failure, USAGE};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use loschmidt_reproduce::Target;
+use loschmidt_reproduce::{GROUPS, Target};
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::preset;
 use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options};
@@ -103,7 +103,7 @@ impl SceneArguments {
 #[derive(Args, Debug)]
 pub struct ReproduceArguments {
     /// What to reproduce: all, or any of fig1 … fig6, table2 (with Fig. 7), kepler, claims, echo,
-    /// work
+    /// work; of the second paper plate and column, or both as solids
     #[arg(default_value = "all", value_parser = target_names())]
     pub targets: Vec<String>,
     /// Coarser spacings: everything within five minutes on two processors
@@ -129,10 +129,14 @@ fn target_names() -> PossibleValuesParser {
     let names = Target::ALL
         .iter()
         .map(|target| PossibleValue::new(target.name()).help(target.title()));
+    let groups = GROUPS
+        .iter()
+        .map(|(name, title, _)| PossibleValue::new(name).help(title));
     PossibleValuesParser::new(
         [PossibleValue::new("all").help("all of them")]
             .into_iter()
-            .chain(names),
+            .chain(names)
+            .chain(groups),
     )
 }
 
@@ -140,7 +144,12 @@ impl ReproduceArguments {
     /// The targets, each once, in the order of the report.
     pub fn targets(&self) -> Vec<Target> {
         let all = self.targets.iter().any(|name| name == "all");
-        let wanted = |target: &&Target| all || self.targets.iter().any(|n| n == target.name());
+        let named = |name: &str| self.targets.iter().any(|n| n == name);
+        let in_a_group = |target: &Target| {
+            let mut groups = GROUPS.iter();
+            groups.any(|(name, _, targets)| named(name) && targets.contains(target))
+        };
+        let wanted = |target: &&Target| all || named(target.name()) || in_a_group(target);
         Target::ALL.iter().filter(wanted).copied().collect()
     }
 

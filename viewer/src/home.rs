@@ -121,7 +121,11 @@ impl Home {
             .filter(|&k| gravity[k] != 0.0)
             .max_by(|&a, &b| gravity[a].abs().total_cmp(&gravity[b].abs()))
             // A column in space stands along z.
-            .unwrap_or(if scene.solid.is_some() { dimension - 1 } else { 1 });
+            .unwrap_or(if scene.solid.is_some() {
+                dimension - 1
+            } else {
+                1
+            });
         let fall = 2.0 * gravity[up].abs() * fluid.size()[up];
         let speed = fall.sqrt().max(2.0 * fastest(frame));
         Self {

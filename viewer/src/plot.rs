@@ -324,7 +324,11 @@ pub fn entropy(
 /// An energy for people.
 fn joules(x: f64) -> String {
     let text = number(x);
-    let gap = if text.ends_with(['k', 'M', 'G']) { "" } else { " " };
+    let gap = if text.ends_with(['k', 'M', 'G']) {
+        ""
+    } else {
+        " "
+    };
     text + gap + "J"
 }
 

@@ -1,5 +1,6 @@
-//! The paper, run again: every figure and table of O. Kincl & M. Pavelka, Comput. Phys. Commun. 284
-//! (2023) 108593, with our number beside theirs and a verdict.
+//! The papers, run again: every figure and table of O. Kincl & M. Pavelka, Comput. Phys. Commun. 284
+//! (2023) 108593, and those of Kincl, Peshkov, Pavelka & Klika, Appl. Math. Comput. 439 (2023)
+//! 127579 that are about elastic bodies, with our number beside theirs and a verdict.
 //!
 //! ```text
 //! Target --Lab (runs, kept in a directory)--> Section (findings, tables, figures) --report-->
@@ -24,4 +25,4 @@ mod targets;
 
 pub use lab::{Lab, LabError, News};
 pub use section::{Section, Verdict};
-pub use target::Target;
+pub use target::{GROUPS, Target};

@@ -60,7 +60,20 @@ targets! {
     /// Beyond the paper.
     Work = "work", "work and precision of every integrator, and the preset `accurate`",
         targets::work::work;
+    /// Figs. 2 to 4 of the paper on solids.
+    Plate = "plate", "solids: the beryllium plate (Figs. 2 to 4 of the second paper)",
+        targets::plate::plate;
+    /// Figs. 5 to 7 of the paper on solids.
+    Column = "column", "solids: the twisting column (Figs. 5 to 7 of the second paper)",
+        targets::column::column;
 }
+
+/// Names for several targets at once.
+pub const GROUPS: [(&str, &str, &[Target]); 1] = [(
+    "solids",
+    "what there is of the second paper: plate and column",
+    &[Target::Plate, Target::Column],
+)];
 
 impl Target {
     /// The target of this name.

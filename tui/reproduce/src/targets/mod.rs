@@ -1,12 +1,14 @@
 //! The targets, one function each.
 
 pub mod claims;
+pub mod column;
 pub mod correction;
 pub mod dam;
 pub mod echo;
 pub mod edge;
 pub mod entropy;
 pub mod gresho;
+pub mod plate;
 pub mod work;
 
 use crate::lab::{Lab, LabError, Past, scene};
