@@ -98,7 +98,7 @@ fn the_plate_keeps_its_energy_over_a_period_and_is_unrung() {
     let set = [
         "particle_spacing=1e-3",
         "support=3.0",
-        "solid.penalty_speed=90465.9",
+        "solid.penalty=10",
         "time_step=3.618e-9",
         "output.rows=2000",
     ];

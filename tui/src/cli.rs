@@ -85,6 +85,8 @@ pub enum Preset {
     /// At most 1e-4 of the energy released is lost or gained on the dam break: PEFRL at twice the
     /// usual time step, twice the force evaluations
     Accurate,
+    /// Solids with the support and the penalty of their paper, and about its time step
+    Paper,
 }
 
 impl SceneArguments {
@@ -92,6 +94,7 @@ impl SceneArguments {
     pub fn overrides(&self) -> Vec<String> {
         let preset = match self.preset {
             Some(Preset::Accurate) => &preset::ACCURATE[..],
+            Some(Preset::Paper) => &preset::PAPER[..],
             None => &[],
         };
         let preset = preset.iter().map(|&set| set.to_owned());

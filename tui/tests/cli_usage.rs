@@ -92,21 +92,28 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
     let place = Workplace::new();
     for name in CATALOGUE {
         let text = place.call(&["check", name]).with_code(0).stdout;
-        for word in [
-            "particles",
-            "steps",
-            "memory",
-            "time",
-            "acoustic limit",
-            "force limit",
-        ] {
+        let solid = text.contains(" solid\n");
+        let limit = if solid {
+            "elastic limit"
+        } else {
+            "acoustic limit"
+        };
+        for word in ["particles", "steps", "memory", "time", limit, "force limit"] {
             assert!(
                 text.lines().any(|line| line.trim_start().starts_with(word)),
                 "{word}: {text}"
             );
         }
         assert!(!text.contains("EXCEEDED"), "{text}");
+        assert!(!text.contains("SPOILT"), "{text}");
+        assert_eq!(solid, text.contains("Young's modulus"), "{text}");
     }
+    let paper = ["check", "beryllium-plate", "--preset", "paper"];
+    let text = place.call(&paper).with_code(0).stdout;
+    assert!(
+        text.contains("1.548 of the stiffness in bulk, SPOILT"),
+        "{text}"
+    );
     let text = place.call(&["check", "dam-break"]).with_code(0).stdout;
     assert!(text.contains("80000 fluid, 6008 wall"));
     assert!(text.contains("80000 (40000 out and 40000 back)"));

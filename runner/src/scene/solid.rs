@@ -2,7 +2,7 @@
 
 use super::declare::keys;
 use super::schema::Family;
-use super::schema::IfAbsent::{Optional, Required, Word};
+use super::schema::IfAbsent::{Number, Required, Word};
 use super::schema::Range::{Above, Any, AtLeast};
 use super::words::words;
 use loschmidt_core::schemes::solid::{Material, ShearEnergy};
@@ -23,9 +23,9 @@ keys! {
              (neo-hookean)", "m/s";
         shear_speed: f64 = Required, Above(0.0),
             "c_s, the speed of shear waves: density times its square is the shear modulus", "m/s";
-        penalty_speed: Option<f64> = Optional, AtLeast(0.0),
-            "c_p, the strength of the penalty that keeps particles from pairing under tension; \
-             absent: as bulk_speed", "m/s";
+        penalty: f64 = Number(1.0), AtLeast(0.0),
+            "c_p/c_0, the strength of the penalty that keeps particles from pairing under tension; \
+             much more than 1 stiffens the lattice, 0 lets bodies tear";
         energy: ElasticEnergy = Word(ElasticEnergy::Dpr.word()), Any,
             "energy of shear: of Dumbser, Peshkov and Romenski, or neo-Hookean";
     }
@@ -48,7 +48,7 @@ impl Solid {
         Material {
             bulk_speed: self.bulk_speed,
             shear_speed: self.shear_speed,
-            penalty_speed: self.penalty_speed.unwrap_or(self.bulk_speed),
+            penalty_speed: self.penalty * self.bulk_speed,
             energy: match self.energy {
                 ElasticEnergy::Dpr => ShearEnergy::Dpr,
                 ElasticEnergy::NeoHookean => ShearEnergy::NeoHookean,

@@ -131,7 +131,7 @@ fn elastic(scene: &Scene, solid: &Solid) -> String {
     let (c_l, c_s) = (material.longitudinal_speed(), material.shear_speed);
     line(
         "  waves",
-        format!("{c_l:.6} m/s longitudinal, {c_s:.6} m/s shear"),
+        format!("{c_l:.1} m/s longitudinal, {c_s:.1} m/s shear"),
     );
     let (h, p) = (
         scene.support / 2.0,
@@ -149,7 +149,7 @@ fn elastic(scene: &Scene, solid: &Solid) -> String {
         seen.push(kind);
         let stiffness = response.bulk_stiffness(p);
         let verdict = if (stiffness - 1.0).abs() > SPOILT {
-            "SPOILT by the penalty: set solid.penalty_speed to solid.bulk_speed"
+            "SPOILT by the penalty: set solid.penalty to 1"
         } else {
             "as given"
         };

@@ -64,7 +64,7 @@ fn twist(lab: &mut Lab<'_>, cells: u32, penalty: f64, courant: f64) -> Result<Se
     let half = 0.5 / f64::from(cells);
     let set = [
         format!("particle_spacing={spacing}"),
-        format!("solid.penalty_speed={}", penalty * SPEED),
+        format!("solid.penalty={penalty}"),
         format!("region.0.shape.box.max=[0.5, 0.5, {half}]"),
         format!("region.1.shape.box.min=[-0.5, -0.5, {half}]"),
         "cfl=".to_owned(),

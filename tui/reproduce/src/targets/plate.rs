@@ -33,7 +33,7 @@ impl Setting {
             format!("model={model}"),
             format!("particle_spacing={spacing}"),
             format!("support={}", 2.0 * self.h),
-            format!("solid.penalty_speed={}", self.penalty * SPEED),
+            format!("solid.penalty={}", self.penalty),
             "cfl=".to_owned(),
             format!("time_step={}", self.courant * spacing / longitudinal),
         ];
