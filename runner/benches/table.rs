@@ -11,6 +11,7 @@
 mod states;
 
 use loschmidt_runner::fast::Backend;
+use loschmidt_runner::scene::{InitialState, Scene, Source, load};
 use loschmidt_runner::{ExecutorKind, Player};
 use states::{SIZES, Size, options, player, state};
 use std::time::Instant;
@@ -18,6 +19,30 @@ use std::time::Instant;
 const ROUNDS: usize = 5;
 /// Particle steps of a fast executor in a round.
 const WORK: f64 = 4e6;
+
+/// Elastic bodies of ten thousand particles and more: three sums of 4, 9 and 2 words in the plane,
+/// of 9, 17 and 3 in space, where water has two of 1 and 2 or 3.
+const SOLIDS: [Size; 2] = [
+    Size {
+        scene: "beryllium-plate",
+        spacing: "2.5e-4",
+        name: "2D plate 10k",
+    },
+    Size {
+        scene: "twisting-column",
+        spacing: "0.066",
+        name: "3D column 20k",
+    },
+];
+
+/// A body of the catalogue at home.
+fn body(size: Size) -> (Scene, InitialState) {
+    let source = Source::Catalogue(size.scene.to_owned());
+    let set = [format!("particle_spacing={}", size.spacing)];
+    let scene = load(&source, &set).expect("a scene of the catalogue");
+    let initial = scene.initial_state().expect("particles");
+    (scene, initial)
+}
 
 fn main() {
     // cargo bench adds --bench.
@@ -38,26 +63,27 @@ fn main() {
         "|---|---:|---:|{}---:|---:|---:|",
         "---:|".repeat(names.len())
     );
-    for disordered in [true, false] {
-        for size in SIZES {
-            if only.is_empty() || only.iter().any(|name| size.name.contains(name.as_str())) {
-                row(size, disordered, &backends);
-            }
+    let wanted =
+        |size: &Size| only.is_empty() || only.iter().any(|name| size.name.contains(name.as_str()));
+    for (disordered, kind) in [(true, "disordered"), (false, "near a lattice")] {
+        for size in SIZES.into_iter().filter(wanted) {
+            row(size, &state(size, disordered), kind, &backends);
         }
+    }
+    for size in SOLIDS.into_iter().filter(wanted) {
+        row(size, &body(size), "as it begins", &backends);
     }
 }
 
-fn row(size: Size, disordered: bool, backends: &[Backend]) {
-    let state = state(size, disordered);
-    let fast = |threads, backend| player(&state, options(ExecutorKind::Fast, threads, backend));
+fn row(size: Size, state: &(Scene, InitialState), kind: &str, backends: &[Backend]) {
+    let fast = |threads, backend| player(state, options(ExecutorKind::Fast, threads, backend));
     let mut players = vec![player(
-        &state,
+        state,
         options(ExecutorKind::Serial, 1, Backend::Baseline),
     )];
     players.extend(backends.iter().map(|backend| fast(1, *backend)));
     players.push(fast(2, Backend::best()));
     let particles = state.1.fluid.len();
-    drop(state);
     let mut least = vec![f64::INFINITY; players.len()];
     for _ in 0..ROUNDS {
         for (p, (player, least)) in players.iter_mut().zip(&mut least).enumerate() {
@@ -70,11 +96,6 @@ fn row(size: Size, disordered: bool, backends: &[Backend]) {
     let serial = least[0];
     let one = least[1];
     let two = least[least.len() - 1];
-    let kind = if disordered {
-        "disordered"
-    } else {
-        "near a lattice"
-    };
     let cells: Vec<String> = least.iter().map(|ns| format!("{ns:.0}")).collect();
     println!(
         "| {size}, {kind} | {particles} | {} | {:.1} | {:.2} |",
