@@ -12,8 +12,8 @@
 //!    pairs as integers, which no order can change, and what happens to one particle.
 //! 4. [`executor`]: who walks particles and pairs; [`Serial`] is the reference. [`system`]: all
 //!    that a step works on.
-//! 5. [`model`]: what a scheme declares. [`shears`], [`integrator`]: kicks and drifts, and
-//!    symmetric tables of them. [`schemes`]: the schemes, a folder each.
+//! 5. [`model`]: what a scheme declares. [`shears`], [`mod@lift`], [`integrator`]: kicks, drifts and
+//!    lifts of a matrix, and symmetric tables of them. [`schemes`]: the schemes, a folder each.
 //! 6. [`observe`] (energies, momenta, entropy) and [`digest`] (equality of states): they read.
 //! 7. [`owned`]: all of it in memory of fixed size, for targets without an allocator.
 //!

@@ -169,6 +169,20 @@ fn a_saved_solid_goes_on() {
     assert_eq!(second.digest().to_string(), digests[1]);
 }
 
+/// A state that names a body that does not exist is followed without a panic.
+#[test]
+fn a_foreign_body_is_no_panic() {
+    let (scene, ..) = golden(0);
+    let mut player = player(scene, serial());
+    let mut saved = player.save();
+    let body = saved.fields.iter_mut().find(|field| field.name == "body");
+    let words = &mut body.expect("a field of that name").words;
+    [words[0], words[1], words[2]] = [99, -1, i64::MAX];
+    let (position, arrow) = (player.position(), player.arrow());
+    player.restore(&saved, position, arrow).unwrap();
+    let _ = player.advance(2).and_then(|()| player.measure());
+}
+
 /// A clamp never moves, and the beam swings about its static deflection.
 #[test]
 fn the_clamp_of_the_cantilever_stands_still() {

@@ -7,9 +7,9 @@
 //!
 //! Each key is declared once, with its type, unit, range, default and meaning (module `declare`):
 //! those of every scene in `types`, `forces`, `step` and `region_keys`, those of the weakly
-//! compressible models in `wcsph`, of elastic ones in `solid`; `model` is the table of models. [`Scene::to_toml`] prints a
-//! scene with all keys, unit and meaning beside each. Every mistake of a text is reported, each
-//! with file, line, caret and help, in one [`SceneError`].
+//! compressible models in `wcsph`, of elastic ones in `solid`; `model` is the table of models.
+//! [`Scene::to_toml`] prints a scene with all keys, unit and meaning beside each. Every mistake of a
+//! text is reported, each with file, line, caret and help, in one [`SceneError`].
 //!
 //! The initial state is the same bit for bit on every machine: node coordinates,
 //! membership in shapes and velocities use `+ - * /` and comparisons alone, and every

@@ -27,7 +27,8 @@ macro_rules! scene_models {
     (
         $(
             $(#[$doc:meta])*
-            $variant:ident = $word:literal, keys $family:ident, made by $made:path, from $from:ident,
+            $variant:ident = $word:literal, keys $family:ident,
+            made by $made:path, from $from:ident,
             except [$($exclusion:expr)?];
         )+
     ) => {

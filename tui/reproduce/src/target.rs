@@ -66,13 +66,16 @@ targets! {
     /// Figs. 5 to 7 of the paper on solids.
     Column = "column", "solids: the twisting column (Figs. 5 to 7 of the second paper)",
         targets::column::column;
+    /// A thin body against the beam formula.
+    Cantilever = "cantilever", "solids: a cantilever against the beam formula",
+        targets::beam::cantilever;
 }
 
 /// Names for several targets at once.
 pub const GROUPS: [(&str, &str, &[Target]); 1] = [(
     "solids",
-    "what there is of the second paper: plate and column",
-    &[Target::Plate, Target::Column],
+    "elastic bodies: plate, column and cantilever",
+    &[Target::Plate, Target::Column, Target::Cantilever],
 )];
 
 impl Target {

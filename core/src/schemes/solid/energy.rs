@@ -71,9 +71,8 @@ impl<const D: usize> Particle<D> {
     fn of<A: Arithmetic>(p: &Parameters<D>, set: &SetView<'_, A, D>, place: usize) -> Self {
         let scalar = |field: usize| set.words(field)[place].quanta() / ONE;
         let rows = set.vectors::<A::Word, D>(DISTORTION);
-        let body = set.words(BODY)[place].whole_quanta() as usize;
         Self {
-            material: p.materials[body],
+            material: p.material(set.words(BODY)[place].whole_quanta()),
             density: scalar(DENSITY),
             clumping: scalar(CLUMPING),
             distortion: core::array::from_fn(|i| rows[place * D + i].map(|x| x.quanta() / ONE)),

@@ -24,6 +24,16 @@ pub struct Part {
     pub held: bool,
 }
 
+/// The material of a body. Its number comes with a state, which may have been written by anybody.
+#[inline(always)]
+pub(super) fn material_of(materials: &[Material], body: i64) -> Material {
+    let known = usize::try_from(body)
+        .ok()
+        .and_then(|body| materials.get(body));
+    // Parameters without a material are refused before.
+    *known.unwrap_or(&materials[0])
+}
+
 /// Parameters of a model of solids in D dimensions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameters<const D: usize> {
@@ -80,6 +90,12 @@ impl<const D: usize> Parameters<D> {
             body: 0,
             held: false,
         })
+    }
+
+    /// What the body of this number is made of; one that does not exist, of the first material.
+    #[must_use]
+    pub fn material(&self, body: i64) -> Material {
+        material_of(&self.materials, body)
     }
 
     /// What every model says of itself.

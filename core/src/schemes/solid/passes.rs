@@ -4,7 +4,7 @@
 //! |---|---|---|
 //! | [`GradientPass`] | dt K = Σ dt V0 (W'/r) v_ij x_ijᵀ | symmetric |
 //! | [`MomentsPass`] | H = Σ V0 (W'/r) x_ij x_ijᵀ; Σ V0 W; Σ V0 h dW/dh; dt K | symmetric |
-//! | [`ForcePass`] | κ Σ V0 ((T_i + T_j) (W'/r) x_ij - (c_p²λ_i + c_p²λ_j) s x_ij) | antisymmetric |
+//! | [`ForcePass`] | κ Σ V0 ((T_i + T_j) (W'/r) - (c_p²λ_i + c_p²λ_j) s) x_ij | antisymmetric |
 //!
 //! V0 is the volume of a particle, s = (1/r) d(h dW/dh)/dr, and κ the kick's share of the time step:
 //! terms of the force enter the state as impulses. H, K, λ and the shear part of T run over the

@@ -6,7 +6,7 @@ use super::fields::{
 };
 use super::material::{Material, whole_metric};
 use super::matrix::{Matrix, damped_inverse, identity, inverse, product, trace};
-use super::parameters::{MAX_BODIES, Parameters};
+use super::parameters::{MAX_BODIES, Parameters, material_of};
 use super::passes::{Moments, Stressed};
 use crate::fault::{Fault, FaultKind};
 use crate::fields::IMPULSE;
@@ -224,7 +224,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Stresses {
         write: &mut Stress<A::Word, D>,
     ) -> Result<(), Fault> {
         let unit = 1.0 / ONE;
-        let material = &self.materials[read.body.whole_quanta() as usize];
+        let material = material_of(&self.materials, read.body.whole_quanta());
         let distortion = scaled(&read.shape.distortion, unit);
         let metric = whole_metric(&distortion, read.shape.log_volume.quanta() * unit);
         let inverse = read.inverse.rows.map(|row| row.map(Word::real));

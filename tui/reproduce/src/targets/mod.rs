@@ -1,5 +1,6 @@
 //! The targets, one function each.
 
+pub mod beam;
 pub mod claims;
 pub mod column;
 pub mod correction;
