@@ -39,8 +39,8 @@ back: write `end`, or `model = \"symplectic\"`",
 `integrator = \"stormer-verlet\"`, or remove the key",
             }];
             /// Elastic bodies with the integrator of the paper: not reversible to the last bit.
-            SolidMidpoint = "solid-midpoint", keys solid, made by Midpoint::new, from solid_parameters,
-                except [Exclusion {
+            SolidMidpoint = "solid-midpoint", keys solid, made by Midpoint::new,
+                from solid_parameters, except [Exclusion {
                 key: "integrator",
                 unless: Some("stormer-verlet"),
                 help: "the midpoint scheme has a composition of its own: write \

@@ -4,4 +4,5 @@ mod frames;
 mod scene_catalogue;
 mod scene_errors;
 mod scene_lattice;
+mod scene_solid;
 mod scene_text;

@@ -30,7 +30,7 @@ pub(super) fn build(spec: &SceneSpec) -> Result<Scene, SceneError> {
     wall(&mut builder, top, &scene);
     times(&mut builder, top, &scene);
     exclusions(&mut builder, top, scene.model);
-    bodies(&mut builder, top, &scene);
+    bodies(&mut builder, top, &mut scene);
     builder.finish(scene)
 }
 
@@ -80,7 +80,7 @@ fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
 }
 
 /// Bodies: not too many, one lattice each, and no forces that solids do not know.
-fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
+fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
     if scene.solid.is_none() {
         return;
     }
@@ -104,11 +104,16 @@ fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
             format!("allowed: at most {MAX_PARTS} regions and {MAX_BODIES} bodies"),
         );
     }
-    for (number, (region, node)) in scene.regions.iter().zip(elements(&entry.node)).enumerate() {
+    for (number, node) in elements(&entry.node).iter().enumerate() {
         let first = numbers.iter().position(|body| *body == numbers[number]);
-        let owner = first.map_or(region, |first| &scene.regions[first]);
+        let lattice = scene.regions[first.unwrap_or(number)].lattice;
         let written = as_table(node).and_then(|table| table.get("lattice"));
-        if let Some(written) = written.filter(|_| region.lattice != owner.lattice) {
+        let Some(written) = written else {
+            // It continues that of the body, as its print says.
+            scene.regions[number].lattice = lattice;
+            continue;
+        };
+        if scene.regions[number].lattice != lattice {
             builder.conflict(
                 "the regions of a body have one lattice, that of its first region".to_owned(),
                 written.node.span,

@@ -76,7 +76,7 @@ impl<'a> Here<'a> {
     }
 
     /// Whether a key that does not exist was most likely meant to be `name`.
-    fn misspells(&self, name: &str) -> bool {
+    pub fn misspells(&self, name: &str) -> bool {
         let names = || self.rules.keys.iter().map(|key| key.name);
         self.table.entries.iter().any(|entry| {
             names().all(|known| known != entry.name) && nearest(&entry.name, names()) == Some(name)

@@ -2,10 +2,11 @@
 //!
 //! Every fluid region has its own lattice, which starts half a pitch inside the lower corner of the
 //! region's bounds (a spiral: in their middle). Walls continue the lattice of the first fluid
-//! region. Particles are ordered region after region in file order, and in a region x fastest, then
-//! y, then z; that order gives the particles their ids. Where the scene asks for it, the fluid is
-//! then moved by the initial state correction (see [`isc`](crate::isc)), and has its first
-//! velocities where it was moved to.
+//! region, and the regions of an elastic body that of the body's first region. Particles are
+//! ordered region after region in file order, and in a region x fastest, then y, then z; that order
+//! gives the particles their ids. Where the scene asks for it, the fluid is then moved by the
+//! initial state correction (see [`isc`](crate::isc)), and has its first velocities where it was
+//! moved to.
 
 use super::error::SceneError;
 use super::filling::visit;
@@ -73,16 +74,13 @@ impl Scene {
         let Some(first) = self.first_lattice() else {
             return counts;
         };
-        for region in self.filled_regions().map(|(_, region)| region) {
-            match region.kind {
-                RegionKind::Fluid | RegionKind::Solid => {
-                    let lattice = self.own_lattice(region).unwrap_or(first);
-                    counts.0 = counts.0.saturating_add(estimate(lattice, &region.shape));
-                }
-                RegionKind::Wall => {
-                    counts.1 = counts.1.saturating_add(estimate(first, &region.shape));
-                }
-            }
+        for (number, region) in self.filled_regions() {
+            let lattice = self.lattice_of(number).unwrap_or(first);
+            let count = match region.kind {
+                RegionKind::Fluid | RegionKind::Solid => &mut counts.0,
+                RegionKind::Wall => &mut counts.1,
+            };
+            *count = count.saturating_add(estimate(lattice, &region.shape));
         }
         counts
     }
@@ -115,11 +113,7 @@ impl Scene {
         let mut placed = Vec::new();
         let (bodies, _) = self.bodies();
         for (number, region) in self.filled_regions() {
-            let lattice = match region.kind {
-                RegionKind::Fluid => self.own_lattice(region).unwrap_or(first),
-                RegionKind::Solid => self.lattice_of_the_body(number).unwrap_or(first),
-                RegionKind::Wall => first,
-            };
+            let lattice = self.lattice_of(number).unwrap_or(first);
             self.check_reach(number, lattice, &region.shape)?;
             let points = match region.kind {
                 RegionKind::Fluid | RegionKind::Solid => &mut state.fluid,
@@ -251,11 +245,18 @@ impl Scene {
         })
     }
 
-    /// The lattice of the first region of the body that a region belongs to.
-    fn lattice_of_the_body(&self, number: usize) -> Option<Lattice> {
-        let (bodies, _) = self.bodies();
-        let first = bodies.iter().position(|body| *body == bodies[number])?;
-        self.own_lattice(&self.regions[first])
+    /// The lattice of a region: of fluid its own, of a solid that of the first region of its body;
+    /// none for a wall, and for what has no corner.
+    fn lattice_of(&self, number: usize) -> Option<Lattice> {
+        match self.regions[number].kind {
+            RegionKind::Fluid => self.own_lattice(&self.regions[number]),
+            RegionKind::Solid => {
+                let (bodies, _) = self.bodies();
+                let first = bodies.iter().position(|body| *body == bodies[number])?;
+                self.own_lattice(&self.regions[first])
+            }
+            RegionKind::Wall => None,
+        }
     }
 
     /// The lattice of the first fluid region, which walls continue.

@@ -11,9 +11,10 @@
 //! [`Scene::to_toml`] prints a scene with all keys, unit and meaning beside each. Every mistake of a
 //! text is reported, each with file, line, caret and help, in one [`SceneError`].
 //!
-//! The initial state is the same bit for bit on every machine: node coordinates,
-//! membership in shapes and velocities use `+ - * /` and comparisons alone, and every
-//! coordinate comes from an integer index (see [`Scene::initial_state`]).
+//! The initial state is the same bit for bit on every machine: node coordinates, membership in
+//! shapes and velocities use `+ - * / sqrt` and comparisons alone, and for spirals, bending and
+//! twist the functions of `libm`; every coordinate comes from an integer index (see
+//! [`Scene::initial_state`]).
 //!
 //! ```
 //! use loschmidt_runner::scene::{load, Source};

@@ -80,9 +80,14 @@ impl Page {
     /// A key of the open table with unit and meaning. One without a value is commented out, with
     /// the value that takes effect where there is one.
     pub fn value(&mut self, name: &'static str, value: Option<String>) {
-        let Some(key) = self.key(name).filter(|key| self.has(key)) else {
-            return;
-        };
+        if let Some(key) = self.key(name).filter(|key| self.has(key)) {
+            self.value_of(key, value);
+        }
+    }
+
+    /// As [`value`](Self::value), for a key that has another meaning in the scene's model.
+    pub fn value_of(&mut self, key: &SceneKey, value: Option<String>) {
+        let name = key.name;
         let follows = self.follows.iter().find(|(known, _)| *known == name);
         let code = match (value, follows) {
             (Some(value), _) => format!("{name} = {value}"),
@@ -112,6 +117,11 @@ impl Page {
     /// The coordinates that the scene's dimension has.
     pub fn vector(&self, vector: Vector3) -> String {
         list(&vector[..self.dimension.axes()])
+    }
+
+    /// Whether the scene's model is one of this family.
+    pub fn is_of(&self, family: Family) -> bool {
+        self.family == family
     }
 
     /// Whether the scene may have a key, by its dimension and its model.

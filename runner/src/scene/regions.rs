@@ -254,7 +254,7 @@ fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
         _ => &[],
     };
     for name in needed {
-        if here.table.get(name).is_none() {
+        if here.table.get(name).is_none() && !here.misspells(name) {
             let message = format!("`{}` needs `{name}`", entry.name);
             let meaning = here.rules.key(name).map_or("", |key| key.meaning);
             builder.missing(here, message, vec![format!("`{name}`: {meaning}")]);

@@ -4,12 +4,14 @@ use super::builder::{Builder, Here};
 use super::declare::Keys;
 use super::page::{Page, number};
 use super::schema::{Family, Range, SceneKey, ValueType, key};
+use super::solid;
 use super::spec::Entry;
 
 /// How the time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepRule {
-    /// The Courant number: time step = number * support radius / sound speed.
+    /// The Courant number: time step = number * support radius / speed, the
+    /// [`step_speed`](super::Scene::step_speed).
     Cfl(f64),
     /// The time step itself, s.
     Seconds(f64),
@@ -19,6 +21,12 @@ const CFL: SceneKey = key("cfl", ValueType::Number)
     .within(Range::AboveUpTo(0.0, 2.0))
     .or(0.2)
     .means("Courant number: time step = cfl * h / sound_speed");
+
+/// As [`CFL`], with what it means for solids: see [`Solid::step_speed`](super::Solid::step_speed).
+const CFL_OF_SOLIDS: SceneKey = CFL.means(
+    "Courant number: time step = cfl * h / sqrt(c_L² + 4 c_p²), \
+     c_L the speed of longitudinal waves",
+);
 
 const TIME_STEP: SceneKey = key("time_step", ValueType::Number)
     .unit("s")
@@ -63,7 +71,12 @@ impl Keys for StepRule {
             Some(Self::Seconds(seconds)) => (None, Some(number(*seconds))),
             None => (None, None),
         };
-        page.value(CFL.name, cfl);
+        let key = if page.is_of(solid::FAMILY) {
+            &CFL_OF_SOLIDS
+        } else {
+            &CFL
+        };
+        page.value_of(key, cfl);
         page.value(TIME_STEP.name, seconds);
     }
 }
