@@ -26,7 +26,7 @@ const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 4] = [
         60,
         [
             "6c619a8f92774dd061e2714ecb145660",
-            "27cde93ed86e97788fc7580f65efe982",
+            "988aedce47a12dd72a0ee194d83914e8",
         ],
     ),
     (
