@@ -60,6 +60,7 @@ mod solid;
 mod source;
 mod spec;
 mod step;
+mod thickness;
 mod types;
 mod values;
 mod wcsph;

@@ -1,12 +1,9 @@
 //! The keys of the elastic models: what the bodies are made of.
 
 use super::declare::keys;
-use super::region::Region;
 use super::schema::Family;
 use super::schema::IfAbsent::{Number, Required, Word};
 use super::schema::Range::{Above, Any, AtLeast};
-use super::shape::Shape;
-use super::types::Scene;
 use super::words::words;
 use loschmidt_core::schemes::solid::{Material, ShearEnergy};
 
@@ -68,25 +65,6 @@ impl Solid {
         let material = self.material();
         let (longitudinal, penalty) = (material.longitudinal_speed(), material.penalty_speed);
         (longitudinal * longitudinal + PENALTY_STIFFNESS * (penalty * penalty)).sqrt()
-    }
-}
-
-impl Scene {
-    /// How many spacings the thinnest region that moves is thick; none without a region of known
-    /// bounds.
-    #[must_use]
-    pub fn spacings_through(&self) -> Option<f64> {
-        let free = self.regions.iter().filter(|region| !region.held);
-        let thickness = |region: &Region| match &region.shape {
-            Shape::Shell { inner, outer, .. } => Some(outer - inner),
-            shape => {
-                let (low, high) = shape.bounds(self.particle_spacing)?;
-                let axes = 0..self.dimension.axes();
-                Some(axes.fold(f64::INFINITY, |least, d| least.min(high[d] - low[d])))
-            }
-        };
-        let least = free.filter_map(thickness).reduce(f64::min);
-        least.map(|least| least / self.particle_spacing)
     }
 }
 

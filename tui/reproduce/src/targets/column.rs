@@ -1,5 +1,6 @@
 //! The twisting column: Figs. 5 to 7 of the paper on solids.
 
+use super::budget_chart;
 use crate::lab::{Lab, LabError, scene};
 use crate::section::Section;
 use crate::svg::{self, Chart};
@@ -192,17 +193,7 @@ pub fn column(lab: &mut Lab<'_>) -> Result<Section, LabError> {
 
 /// Fig. 6.
 fn budget(lab: &Lab<'_>, section: &mut Section, seen: &Seen) -> Result<(), LabError> {
-    let names = ["kinetic", "elastic", "penalty"];
-    let series = names.iter().zip(&seen.energies).enumerate();
-    let chart = Chart {
-        title: "Fig. 6: energies over the kinetic one at the start".to_owned(),
-        x_label: "t / s".to_owned(),
-        y_label: "E / K(0)".to_owned(),
-        series: series
-            .map(|(n, (name, points))| svg::line(name, n, points.iter().copied()))
-            .collect(),
-        ..Chart::default()
-    };
+    let chart = budget_chart("Fig. 6", "t / s", &seen.energies);
     lab.figure(
         section,
         "column-energies",

@@ -13,6 +13,7 @@ pub mod plate;
 pub mod work;
 
 use crate::lab::{Lab, LabError, Past, scene};
+use crate::svg::{self, Chart};
 use loschmidt_runner::ArithmeticKind;
 use loschmidt_runner::run::Row;
 
@@ -31,6 +32,21 @@ fn dam_break(lab: &mut Lab<'_>) -> Result<Past, LabError> {
         scene("dam-break", &set)?,
         ArithmeticKind::Fixed,
     )
+}
+
+/// Kinetic, elastic and penalty energy of a body in time, over the kinetic one at the start.
+fn budget_chart(figure: &str, x_label: &str, energies: &[Vec<[f64; 2]>; 3]) -> Chart {
+    let names = ["kinetic", "elastic", "penalty"];
+    let series = names.iter().zip(energies).enumerate();
+    Chart {
+        title: format!("{figure}: energies over the kinetic one at the start"),
+        x_label: x_label.to_owned(),
+        y_label: "E / K(0)".to_owned(),
+        series: series
+            .map(|(n, (name, points))| svg::line(name, n, points.iter().copied()))
+            .collect(),
+        ..Chart::default()
+    }
 }
 
 /// In a few digits.

@@ -1,5 +1,6 @@
 //! The beryllium plate: Figs. 2 to 4 of the paper on solids.
 
+use super::budget_chart;
 use crate::lab::{Lab, LabError, scene};
 use crate::section::Section;
 use crate::svg::{self, Chart};
@@ -234,17 +235,7 @@ fn settings(lab: &mut Lab<'_>, section: &mut Section) -> Result<(), LabError> {
 
 /// Fig. 3.
 fn budget(lab: &Lab<'_>, section: &mut Section, seen: &Seen) -> Result<(), LabError> {
-    let names = ["kinetic", "elastic", "penalty"];
-    let series = names.iter().zip(&seen.energies).enumerate();
-    let chart = Chart {
-        title: "Fig. 3: energies over the kinetic one at the start".to_owned(),
-        x_label: "t / µs".to_owned(),
-        y_label: "E / K(0)".to_owned(),
-        series: series
-            .map(|(n, (name, points))| svg::line(name, n, points.iter().copied()))
-            .collect(),
-        ..Chart::default()
-    };
+    let chart = budget_chart("Fig. 3", "t / µs", &seen.energies);
     lab.figure(
         section,
         "plate-energies",
