@@ -68,6 +68,9 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     const ENERGIES: &'static [&'static str];
     /// What is recorded and drawn of a particle besides position and velocity.
     const COLUMNS: &'static [Measure] = &[];
+    /// The field that is 1 where a particle is held in its place: it is a wall, and no part of
+    /// momenta, of the kinetic energy, or of the histogram of speeds.
+    const HELD: Option<usize> = None;
     /// Part of the type, so that whoever promises a way back can ask before promising. Reversing
     /// the velocities is allowed for every model.
     const REVERSIBILITY: Reversibility = if A::EXACT {
@@ -219,9 +222,9 @@ pub trait Relax<A: Arithmetic, const D: usize>: Send + Sync + 'static {
     type Scheme: Model<A, D>;
     /// The model between two relaxations.
     fn scheme(&self) -> &Self::Scheme;
-    /// Whether step number `step` ends with a relaxation.
-    fn is_due(&self, step: u64) -> bool;
-    /// Maps many states to one.
+    /// The stages of step number `step`, counted from 1, with a relaxation where one is due.
+    fn stages(&self, step: u64) -> impl Iterator<Item = Stage>;
+    /// Maps many states to one, and leaves the particles located.
     ///
     /// # Errors
     /// As a step.
@@ -237,6 +240,7 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
     const FIELDS: &'static [Field] = R::Scheme::FIELDS;
     const ENERGIES: &'static [&'static str] = R::Scheme::ENERGIES;
     const COLUMNS: &'static [Measure] = R::Scheme::COLUMNS;
+    const HELD: Option<usize> = R::Scheme::HELD;
     const REVERSIBILITY: Reversibility = Reversibility::Dissipative;
 
     fn settings(&self) -> &Settings<D> {
@@ -260,8 +264,7 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
         self.0.scheme().refresh(system, exec)
     }
     fn stages(&self, step: u64) -> impl Iterator<Item = Stage> {
-        let relax = self.0.is_due(step).then_some(Stage::Relax);
-        self.0.scheme().stages(step).chain(relax)
+        self.0.stages(step)
     }
     fn prepare<E: Executor>(
         &self,

@@ -52,7 +52,9 @@ impl Group {
         system: &mut System<'_, A, D>,
         exec: &E,
     ) -> Result<(), Fault> {
-        let mut apply = |stage, step| {
+        let mut apply = |stage, step: u64| {
+            // What moves with time asks the clock.
+            system.clock.step = step - 1;
             let result = model.apply(stage, system, exec);
             result.map_err(|fault: Fault| fault.at_step(step))
         };
@@ -119,7 +121,7 @@ pub(crate) fn advance<A: Arithmetic, M: Model<A, D>, E: Drive, const D: usize>(
             exec.prepare(model, stage, in_place, system)
                 .map_err(|fault| fault.at_step(step))?;
             // A drift sums nothing, so after it there is nothing to be kept either.
-            held.in_place = in_place || matches!(stage, Stage::Kick(_) | Stage::Lift(_));
+            held.in_place = in_place || !matches!(stage, Stage::Drift(_));
         }
         let mut group = Group {
             step,

@@ -46,6 +46,22 @@ back: write `end`, or `model = \"symplectic\"`",
                 help: "the midpoint scheme has a composition of its own: write \
 `integrator = \"stormer-verlet\"`, or remove the key",
             }];
+            /// A viscous fluid with the equations of solids, whose distortion relaxes: dissipative.
+            Viscous = "viscous", keys viscous, made by Relaxing::viscous, from fluid_parameters,
+                except [
+                Exclusion {
+                    key: "turnaround",
+                    unless: None,
+                    help: "viscosity takes energy and information out of the flow, and nothing \
+brings them back: write `end`",
+                },
+                Exclusion {
+                    key: "integrator",
+                    unless: Some("stormer-verlet"),
+                    help: "the viscous model has a composition of its own: write \
+`integrator = \"stormer-verlet\"`, or remove the key",
+                },
+            ];
         }
     };
 }

@@ -8,7 +8,7 @@ use crate::frame::Frame;
 use crate::points::Points;
 use crate::pool::Rayon;
 use crate::saved::{ArithmeticKind, SavedState};
-use crate::scene::{InitialState, Scene};
+use crate::scene::{InitialPart, InitialState, Scene};
 use crate::setup;
 use crate::simulation::{BuildError, Options, Simulation};
 use loschmidt_core::{Diagnostics, Digest, Fault, Reversibility};
@@ -84,6 +84,8 @@ pub struct Player {
     scene: Scene,
     options: Options,
     simulation: Box<dyn Simulation>,
+    /// The parts of the initial state: they are no part of a saved one.
+    parts: Vec<InitialPart>,
     home: SavedState,
     home_digest: Digest,
     position: i64,
@@ -98,8 +100,9 @@ impl Player {
     /// [`BuildError`].
     pub fn new(scene: Scene, initial: InitialState, options: Options) -> Result<Self, BuildError> {
         let mut simulation = setup::simulation(&scene, &initial, &options)?;
-        drop(initial);
+        let parts = initial.parts;
         Ok(Self {
+            parts,
             home: simulation.save(),
             home_digest: simulation.digest(),
             scene,
@@ -293,7 +296,10 @@ impl Player {
             arithmetic,
             ..self.options
         };
-        let initial = self.home.initial_state();
+        let initial = InitialState {
+            parts: self.parts.clone(),
+            ..self.home.initial_state()
+        };
         let mut other = setup::simulation(&self.scene, &initial, &options)?;
         other.restore(&self.simulation.save().converted(arithmetic))?;
         self.simulation = other;

@@ -73,8 +73,9 @@ impl SavedState {
             fluid: particles.clone().map(|n| self.position(n)).collect(),
             fluid_velocity: particles.map(|n| self.velocity(n)).collect(),
             wall: walls.map(|words| self.in_si(words, quantum)).collect(),
-            // Bodies are fields of the state.
+            // What follows from them are fields of the state.
             parts: Vec::new(),
+            wall_offset: Vec::new(),
         }
     }
 

@@ -6,7 +6,7 @@ mod solids;
 
 pub use limits::{fixed_limits, force_limit};
 pub use response::{LatticeResponse, lattice_response};
-pub use solids::solid_parameters;
+pub use solids::{fluid_parameters, solid_parameters};
 
 use crate::engine::simulate;
 use crate::isc;
@@ -19,7 +19,7 @@ use crate::storage;
 use loschmidt_core::fields::{Field, Side, state_fields};
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
 use loschmidt_core::model::{Measure, Model};
-use loschmidt_core::schemes::solid::{Midpoint, Solid};
+use loschmidt_core::schemes::solid::{Midpoint, Relaxing, Solid, Viscous};
 use loschmidt_core::schemes::wcsph::{
     AntiClump, Central, DensityCorrection, Filter, Gravity, StateEquation, Wall,
 };
@@ -75,7 +75,7 @@ macro_rules! build_models {
         $(
             $(#[$doc:meta])*
             $variant:ident = $word:literal, keys $family:ident, made by $made:path, from $from:ident,
-            except [$($exclusion:expr)?];
+            except [$($exclusion:expr),* $(,)?];
         )+
     ) => {
         fn build<A: Arithmetic, const D: usize>(
@@ -98,11 +98,14 @@ for_each_model!(build_models);
 /// What is recorded of a particle of the scene besides position and velocity.
 #[must_use]
 pub fn columns(scene: &Scene) -> &'static [Measure] {
-    match (own_of(scene), scene.solid, scene.dimension) {
+    let plane = scene.dimension == scene::Dimension::Two;
+    match (own_of(scene), scene.solid, scene.viscous) {
         (Some(model), ..) => model.columns,
-        (None, None, _) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
-        (None, Some(_), scene::Dimension::Two) => <Solid<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
-        (None, Some(_), scene::Dimension::Three) => <Solid<Fixed, 3> as Model<Fixed, 3>>::COLUMNS,
+        (None, Some(_), _) if plane => <Solid<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
+        (None, Some(_), _) => <Solid<Fixed, 3> as Model<Fixed, 3>>::COLUMNS,
+        (None, None, Some(_)) if plane => <Viscous<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
+        (None, None, Some(_)) => <Viscous<Fixed, 3> as Model<Fixed, 3>>::COLUMNS,
+        (None, None, None) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
     }
 }
 
@@ -110,7 +113,7 @@ pub fn columns(scene: &Scene) -> &'static [Measure] {
 #[must_use]
 pub fn every_column() -> Vec<Measure> {
     let mut all = <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS.to_vec();
-    let more = <Solid<Fixed, 3> as Model<Fixed, 3>>::COLUMNS.iter();
+    let more = <Viscous<Fixed, 3> as Model<Fixed, 3>>::COLUMNS.iter();
     let own = own::columns();
     for measure in more.chain(&own) {
         if !all.contains(measure) {
@@ -122,10 +125,11 @@ pub fn every_column() -> Vec<Measure> {
 
 /// What a particle of the scene consists of.
 fn fields(scene: &Scene) -> &'static [Field] {
-    match (own_of(scene), scene.solid) {
-        (Some(model), _) => model.fields,
-        (None, None) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
-        (None, Some(_)) => <Solid<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
+    match (own_of(scene), scene.solid, scene.viscous) {
+        (Some(model), ..) => model.fields,
+        (None, Some(_), _) => <Solid<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
+        (None, None, Some(_)) => <Viscous<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
+        (None, None, None) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
     }
 }
 

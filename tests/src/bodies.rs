@@ -45,13 +45,7 @@ pub fn free_body<const D: usize>(material: Material) -> Parameters<D> {
         time_step: 0.1 * SPACING / material.longitudinal_speed(),
         reference_density: 1000.0,
         materials: [material].into_iter().collect(),
-        parts: [Part {
-            first: 0,
-            body: 0,
-            held: false,
-        }]
-        .into_iter()
-        .collect(),
+        parts: [Part::default()].into_iter().collect(),
         gravity: [0.0; D],
         scale: Scale::with_headroom(4.0, 40.0, 1000.0),
         extent: [4.0; D],
@@ -79,8 +73,7 @@ pub fn block<const D: usize>(counts: [usize; D]) -> InitialState {
     InitialState {
         fluid_velocity: vec![[0.0; 3]; fluid.len()],
         fluid,
-        wall: Vec::new(),
-        parts: Vec::new(),
+        ..InitialState::default()
     }
 }
 

@@ -151,8 +151,7 @@ fn of_two_faults_in_one_step_the_one_of_the_earlier_stage_is_told() {
             let initial = InitialState {
                 fluid: order.map(|i| particles[i].0).to_vec(),
                 fluid_velocity: order.map(|i| particles[i].1).to_vec(),
-                wall: Vec::new(),
-                parts: Vec::new(),
+                ..InitialState::default()
             };
             let model = || Symplectic::<Fixed, 2>::new(parameters).unwrap();
             for looked_at in [&[1, 2, 3, 4][..], &[4]] {
@@ -237,8 +236,7 @@ fn cloud(fluid: Vec<[f64; 3]>) -> InitialState {
     InitialState {
         fluid_velocity: vec![[0.0; 3]; fluid.len()],
         fluid,
-        wall: Vec::new(),
-        parts: Vec::new(),
+        ..InitialState::default()
     }
 }
 

@@ -30,4 +30,5 @@ mod snapshot_bytes;
 mod solid;
 mod solid_forces;
 mod standard;
+mod viscous;
 mod wide_passes;

@@ -1,9 +1,12 @@
 //! Pair passes keep what they declare: their bound, their reach, their parity. Named numbers are
 //! walked in the order in which they were declared.
 
+use loschmidt_core::model::Relax;
 use loschmidt_core::number::{power_of_two, round};
 use loschmidt_core::pairs::{PairPass, Parity, separation, term_count};
-use loschmidt_core::schemes::solid::{self, ShearEnergy, Solid};
+use loschmidt_core::schemes::solid::{
+    self, Relaxation, Relaxing, ShearEnergy, Solid, Viscous, WallVelocity,
+};
 use loschmidt_core::schemes::wcsph::{AntiClump, Wall, Water};
 use loschmidt_core::values::{Symmetric, Values};
 use loschmidt_core::{Fixed, Parameters, Scale};
@@ -21,6 +24,7 @@ trait Check<const D: usize> {
 struct Models<const D: usize> {
     water: Water<Fixed, D>,
     solid: Solid<Fixed, D>,
+    viscous: Viscous<Fixed, D>,
     /// Of a kick, s.
     duration: f64,
 }
@@ -33,12 +37,16 @@ fn every_pass<const D: usize>(
     let Models {
         water,
         solid,
+        viscous,
         duration,
     } = models;
+    let flow = viscous.0.scheme();
     let duration = *duration;
-    check.check("velocity gradient", &solid.gradient_pass())?;
-    check.check("moments", &solid.moments_pass())?;
+    check.check("velocity gradient", &solid.bodies().gradient_pass())?;
+    check.check("moments", &solid.bodies().moments_pass())?;
     check.check("force of a solid", &solid.force_pass())?;
+    check.check("force of a fluid", &flow.force_pass())?;
+    check.check("flow beside a wall", &flow.beside_pass())?;
     check.check("density", &water.density_pass())?;
     check.check("pressure", &water.pressure_pass())?;
     check.check("continuity", &water.continuity_pass(duration))?;
@@ -173,16 +181,25 @@ fn models<const D: usize>() -> impl Strategy<Value = Models<D>> {
             ..water()
         };
         let spacing = support_radius / 3.0;
-        let solid = Solid::new(solid::Parameters {
+        let bodies = solid::Parameters {
             support_radius,
             particle_spacing: spacing,
             time_step: duration,
             scale: parameters.scale,
             ..free_body(material(ShearEnergy::Dpr))
+        };
+        let solid = Solid::new(bodies.clone());
+        let viscous = Relaxing::viscous(solid::FluidParameters {
+            bodies,
+            relaxation_time: duration,
+            relaxation: Relaxation::Exact,
+            wall_velocity: WallVelocity::Mirrored,
+            start: 0.0,
         });
         Models {
             water: Water::new(parameters).expect("in range"),
             solid: solid.expect("in range"),
+            viscous: viscous.expect("in range"),
             duration,
         }
     })

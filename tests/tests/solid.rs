@@ -56,7 +56,12 @@ fn two_bodies_and_a_clamp_return() {
         state.fluid.push([x[0] + 10.5 * SPACING, x[1] + 0.2, 0.0]);
         state.fluid_velocity.push([-3.0, 0.0, 0.0]);
     }
-    let part = |first, body, held| Part { first, body, held };
+    let part = |first, body, held| Part {
+        first,
+        body,
+        held,
+        ..Part::default()
+    };
     parameters.parts = [part(0, 0, true), part(16, 0, false), part(64, 1, false)]
         .into_iter()
         .collect();

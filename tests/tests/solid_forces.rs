@@ -75,7 +75,7 @@ fn worst<const D: usize>(body: &mut Floating<D>, seed: u64) -> f64 {
             velocity[D..].fill(0.0);
         }
         let (model, mut system) = body.parts();
-        let p = model.parameters().clone();
+        let p = model.bodies().parameters().clone();
         let to_quanta = 1.0 / p.scale.speed_quantum();
         // About 1e-4 spacings in a step.
         let speed = 1e-4 * SPACING / p.time_step * to_quanta;

@@ -14,8 +14,8 @@
 //! The bins are the same for a whole run: 100 equal ones up to the model's largest speed (c/6 for
 //! water), faster particles in the last and counted. S depends on the bins.
 
+use super::Moving;
 use crate::number::{Arithmetic, Quantity};
-use crate::system::System;
 use core::f64::consts::PI;
 
 /// Number of bins.
@@ -39,14 +39,16 @@ pub struct SpeedHistogram {
 impl SpeedHistogram {
     /// Counts the speeds in bins of this width, m/s.
     pub(super) fn measure<A: Arithmetic, const D: usize>(
-        system: &System<'_, A, D>,
+        moving: &Moving<'_, '_, A, D>,
         bin_width: f64,
         speed_quantum: f64,
     ) -> Self {
         let mut counts = [0; BINS];
         let mut beyond = 0;
         let mut sum = 0i128;
-        for v in system.particles.velocity() {
+        let mut n = 0u64;
+        for (_, v) in moving.iter() {
+            n += 1;
             let v2 = v.iter().fold(0i128, |sum, v| {
                 let v = i128::from(v.whole_quanta());
                 sum + v * v
@@ -60,7 +62,7 @@ impl SpeedHistogram {
                 beyond += 1;
             }
         }
-        let n = system.particles.len().max(1) as f64;
+        let n = n.max(1) as f64;
         Self {
             dimension: D,
             bin_width,

@@ -120,8 +120,12 @@ impl Diagnostics {
             model.scale().speed_quantum(),
         );
         let (mass, speed_bin) = (model.settings().mass, model.settings().speed_bin);
-        let momentum_quanta = momentum(system);
-        let angular_momentum_quanta = angular_momentum(system);
+        let moving = Moving {
+            system,
+            held: M::HELD,
+        };
+        let momentum_quanta = momentum(&moving);
+        let angular_momentum_quanta = angular_momentum(&moving);
         let position = system.particles.position();
         let front = position
             .iter()
@@ -131,10 +135,10 @@ impl Diagnostics {
         let mut energies = model
             .energies(system)
             .map_err(|fault| fault.at_step(system.clock.step))?;
-        energies[0] = squares(system) * 0.5 * mass * (sq * sq);
+        energies[0] = squares(&moving) * 0.5 * mass * (sq * sq);
         Ok(Self {
             energies: Energies::new(M::ENERGIES, energies),
-            histogram: SpeedHistogram::measure(system, speed_bin, sq),
+            histogram: SpeedHistogram::measure(&moving, speed_bin, sq),
             momentum: momentum_quanta.map(|q| q as f64 * (sq * mass)),
             angular_momentum: angular_momentum_quanta.map(|q| q as f64 * (sq * lq * mass)),
             momentum_quanta,
@@ -144,19 +148,39 @@ impl Diagnostics {
     }
 }
 
+/// The particles that are not held.
+struct Moving<'a, 'b, A: Arithmetic, const D: usize> {
+    system: &'a System<'b, A, D>,
+    /// See [`Model::HELD`].
+    held: Option<usize>,
+}
+
+impl<A: Arithmetic, const D: usize> Moving<'_, '_, A, D> {
+    /// Their positions and velocities.
+    fn iter(&self) -> impl Iterator<Item = (&[A::Length; D], &[A::Speed; D])> {
+        let particles = &self.system.particles;
+        let held = self.held.map(|field| particles.words(field));
+        let all = particles.position().iter().zip(particles.velocity());
+        all.enumerate().filter_map(move |(place, particle)| {
+            let moves = held.is_none_or(|held| held[place] == A::Word::ZERO);
+            moves.then_some(particle)
+        })
+    }
+}
+
 /// Σ v² in squared speed quanta, summed exactly.
-fn squares<A: Arithmetic, const D: usize>(system: &System<'_, A, D>) -> f64 {
+fn squares<A: Arithmetic, const D: usize>(moving: &Moving<'_, '_, A, D>) -> f64 {
     let mut sum = 0i128;
-    for v in system.particles.velocity().iter().flatten() {
+    for v in moving.iter().flat_map(|(_, v)| v) {
         let v = i128::from(v.whole_quanta());
         sum += v * v;
     }
     sum as f64
 }
 
-fn momentum<A: Arithmetic, const D: usize>(system: &System<'_, A, D>) -> [i128; 3] {
+fn momentum<A: Arithmetic, const D: usize>(moving: &Moving<'_, '_, A, D>) -> [i128; 3] {
     let mut sum = [0i128; 3];
-    for v in system.particles.velocity() {
+    for (_, v) in moving.iter() {
         for (s, v) in sum.iter_mut().zip(v) {
             *s += i128::from(v.whole_quanta());
         }
@@ -164,10 +188,9 @@ fn momentum<A: Arithmetic, const D: usize>(system: &System<'_, A, D>) -> [i128; 
     sum
 }
 
-fn angular_momentum<A: Arithmetic, const D: usize>(system: &System<'_, A, D>) -> [i128; 3] {
+fn angular_momentum<A: Arithmetic, const D: usize>(moving: &Moving<'_, '_, A, D>) -> [i128; 3] {
     let mut sum = [0i128; 3];
-    let (position, velocity) = (system.particles.position(), system.particles.velocity());
-    for (x, v) in position.iter().zip(velocity) {
+    for (x, v) in moving.iter() {
         let component = |a: usize, b: usize| {
             let product = |c: usize, d: usize| {
                 i128::from(x[c].whole_quanta()) * i128::from(v[d].whole_quanta())

@@ -53,7 +53,7 @@ fn name<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene, stem: &
 
 /// Walls that act by a potential need one.
 fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
-    if scene.solid.is_some() {
+    if scene.material().is_some() {
         return;
     }
     let model = builder.word(top, "wall_model");
@@ -79,16 +79,19 @@ fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
     }
 }
 
-/// Bodies: not too many, one lattice each, and no forces that solids do not know.
+/// Bodies: not too many, one lattice each, and no forces that their models do not know.
 fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
-    if scene.solid.is_none() {
+    if scene.material().is_none() {
         return;
     }
     if let Some(entry) = top.table.get("gravity")
         && scene.gravity.central.is_some()
     {
         builder.conflict(
-            "`gravity.central` does not go with solids".to_owned(),
+            format!(
+                "`gravity.central` does not go with `model = \"{}\"`",
+                scene.model.word()
+            ),
             entry.key,
             "write `gravity.uniform`, or remove it".to_owned(),
         );
@@ -97,6 +100,16 @@ fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
         return;
     };
     let (numbers, count) = scene.bodies();
+    if scene.solid.is_none() {
+        if scene.regions.len() > MAX_PARTS {
+            builder.out_of_range(
+                format!("{} regions", scene.regions.len()),
+                entry.key,
+                format!("allowed: at most {MAX_PARTS} regions"),
+            );
+        }
+        return;
+    }
     if scene.regions.len() > MAX_PARTS || count > MAX_BODIES {
         builder.out_of_range(
             format!("{} regions of {count} bodies", scene.regions.len()),

@@ -43,9 +43,27 @@ pub(super) fn visit(lattice: &Lattice, shape: &Shape, mut visitor: impl FnMut(Ve
 /// Whether the node `index` of the near's lattice belongs to the shape.
 fn contains(shape: &Shape, near: &Neighbourhoods, index: Index) -> bool {
     let lattice = &near.lattice;
-    let tolerance = TOLERANCE * lattice.spacing;
-    let x = lattice.node(index);
+    let in_layer = |around: &Shape, depth: f64| {
+        !contains(around, near, index)
+            && near.any_neighbour(index, layer_reach(depth), |neighbour| {
+                contains(around, near, neighbour)
+            })
+    };
     let axes = lattice.dimension().axes();
+    holds(shape, lattice.node(index), axes, lattice.spacing, &in_layer)
+}
+
+/// Whether a point belongs to the shape, with the tolerance of this particle spacing; a layer
+/// around a shape is asked about by its depth.
+pub(super) fn holds(
+    shape: &Shape,
+    x: Vector3,
+    axes: usize,
+    spacing: f64,
+    in_layer: &dyn Fn(&Shape, f64) -> bool,
+) -> bool {
+    let tolerance = TOLERANCE * spacing;
+    let inner = |shape: &Shape| holds(shape, x, axes, spacing, in_layer);
     match shape {
         Shape::Block { min, max } => {
             (0..axes).all(|k| x[k] + tolerance >= min[k] && x[k] + tolerance < max[k])
@@ -77,23 +95,13 @@ fn contains(shape: &Shape, near: &Neighbourhoods, index: Index) -> bool {
             outside_the_hole && limit > 0.0 && squared < limit * limit
         }
         Shape::Polygon { points } => inside_polygon(points, [x[0] + tolerance, x[1] + tolerance]),
-        Shape::Union(shapes) => shapes.iter().any(|shape| contains(shape, near, index)),
+        Shape::Union(shapes) => shapes.iter().any(inner),
         Shape::Difference(shapes) => match shapes.split_first() {
-            Some((first, others)) => {
-                contains(first, near, index)
-                    && !others.iter().any(|shape| contains(shape, near, index))
-            }
+            Some((first, others)) => inner(first) && !others.iter().any(inner),
             None => false,
         },
-        Shape::Intersection(shapes) => {
-            !shapes.is_empty() && shapes.iter().all(|shape| contains(shape, near, index))
-        }
-        Shape::Layer { around, depth } => {
-            !contains(around, near, index)
-                && near.any_neighbour(index, layer_reach(*depth), |neighbour| {
-                    contains(around, near, neighbour)
-                })
-        }
+        Shape::Intersection(shapes) => !shapes.is_empty() && shapes.iter().all(inner),
+        Shape::Layer { around, depth } => in_layer(around, *depth),
     }
 }
 

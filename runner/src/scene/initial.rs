@@ -18,6 +18,7 @@ use super::types::Scene;
 use super::wcsph::{DensityCorrection, WallModel};
 use super::words::{Dimension, LatticeKind, RegionKind};
 use crate::isc;
+use loschmidt_core::schemes::solid::Motion;
 
 /// The particles at time zero; z is 0 in two dimensions.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,19 +29,25 @@ pub struct InitialState {
     pub fluid_velocity: Vec<Vector3>,
     /// Positions of the wall particles, m.
     pub wall: Vec<Vector3>,
-    /// The parts of elastic bodies, one for each region, in the order of their first ids.
+    /// The parts of elastic bodies or of a viscous fluid and its walls, one for each region, in the
+    /// order of their first ids.
     pub parts: Vec<InitialPart>,
+    /// The ways from the wall particles of a viscous fluid to the surface of the flow, m, and
+    /// nothing for those that flow; empty in other scenes.
+    pub wall_offset: Vec<Vector3>,
 }
 
 /// Particles with consecutive ids that belong to one body.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InitialPart {
     /// Id of the first one.
     pub first: u64,
     /// Number of the body, in the order of appearance.
     pub body: usize,
-    /// Whether they never move.
+    /// Whether they never move but by their motion.
     pub held: bool,
+    /// How what is held moves.
+    pub motion: Motion,
 }
 
 /// The most particles of a scene: their numbers fit into 32 bits with one to spare.
@@ -76,9 +83,10 @@ impl Scene {
         };
         for (number, region) in self.filled_regions() {
             let lattice = self.lattice_of(number).unwrap_or(first);
-            let count = match region.kind {
-                RegionKind::Fluid | RegionKind::Solid => &mut counts.0,
-                RegionKind::Wall => &mut counts.1,
+            let count = if self.is_movable(region.kind) {
+                &mut counts.0
+            } else {
+                &mut counts.1
             };
             *count = count.saturating_add(estimate(lattice, &region.shape));
         }
@@ -115,16 +123,23 @@ impl Scene {
         for (number, region) in self.filled_regions() {
             let lattice = self.lattice_of(number).unwrap_or(first);
             self.check_reach(number, lattice, &region.shape)?;
-            let points = match region.kind {
-                RegionKind::Fluid | RegionKind::Solid => &mut state.fluid,
-                RegionKind::Wall => &mut state.wall,
+            let points = if self.is_movable(region.kind) {
+                &mut state.fluid
+            } else {
+                &mut state.wall
             };
             let before = points.len();
-            if region.kind == RegionKind::Solid {
+            if self.material().is_some() {
                 state.parts.push(InitialPart {
                     first: before as u64,
-                    body: bodies[number],
-                    held: region.held,
+                    // A viscous fluid is one body with its walls.
+                    body: if self.solid.is_some() {
+                        bodies[number]
+                    } else {
+                        0
+                    },
+                    held: region.held || region.kind == RegionKind::Wall,
+                    motion: region.motion(),
                 });
             }
             visit(&lattice, &region.shape, |point| points.push(point));
@@ -134,6 +149,9 @@ impl Scene {
             return Err(no_fluid());
         }
         self.refuse_overlap(&state, &placed)?;
+        if self.viscous.is_some() {
+            state.wall_offset = self.wall_offsets(&state);
+        }
         if self.water.density_correction == DensityCorrection::Isc {
             self.correct(&mut state)?;
         }
@@ -145,7 +163,12 @@ impl Scene {
     fn set_velocities(&self, state: &mut InitialState, placed: &[(usize, RegionKind, usize)]) {
         state.fluid_velocity = vec![[0.0; 3]; state.fluid.len()];
         for &(number, kind, start) in placed {
-            if !kind.is_of_the_model() {
+            if !self.is_movable(kind) {
+                continue;
+            }
+            if kind == RegionKind::Wall {
+                // What walls pretend is set by the model.
+                state.fluid_velocity[start..].fill([0.0; 3]);
                 continue;
             }
             let field = self.regions[number].velocity;
@@ -213,9 +236,15 @@ impl Scene {
         Ok(report)
     }
 
+    /// Whether the particles of such a region are among those that may move: the walls of a viscous
+    /// fluid are, since they carry what its particles carry.
+    fn is_movable(&self, kind: RegionKind) -> bool {
+        kind.is_of_the_model() || self.viscous.is_some()
+    }
+
     /// The regions that hold particles, with their numbers in file order.
     fn filled_regions(&self) -> impl Iterator<Item = (usize, &Region)> {
-        let walls = self.water.wall_model != WallModel::None;
+        let walls = self.material().is_some() || self.water.wall_model != WallModel::None;
         self.regions
             .iter()
             .enumerate()
@@ -320,14 +349,14 @@ impl Scene {
     ) -> Result<(), SceneError> {
         let mut groups: Vec<(usize, &[Vector3])> = Vec::new();
         for (position, &(number, kind, start)) in placed.iter().enumerate() {
-            let all = if kind.is_of_the_model() {
+            let all = if self.is_movable(kind) {
                 &state.fluid
             } else {
                 &state.wall
             };
             let end = placed[position + 1..]
                 .iter()
-                .find(|next| next.1 == kind)
+                .find(|next| self.is_movable(next.1) == self.is_movable(kind))
                 .map_or(all.len(), |next| next.2);
             groups.push((number, &all[start..end]));
         }

@@ -7,7 +7,8 @@
 //!
 //! Each key is declared once, with its type, unit, range, default and meaning (module `declare`):
 //! those of every scene in `types`, `forces`, `step` and `region_keys`, those of the weakly
-//! compressible models in `wcsph`, of elastic ones in `solid`; `model` is the table of models.
+//! compressible models in `wcsph`, of elastic ones in `solid`, of the
+//! viscous one in `viscous`; `model` is the table of models.
 //! [`Scene::to_toml`] prints a scene with all keys, unit and meaning beside each. Every mistake of a
 //! text is reported, each with file, line, caret and help, in one [`SceneError`].
 //!
@@ -60,9 +61,11 @@ mod solid;
 mod source;
 mod spec;
 mod step;
+mod surface;
 mod thickness;
 mod types;
 mod values;
+mod viscous;
 mod wcsph;
 mod words;
 
@@ -78,6 +81,7 @@ pub use solid::{ElasticEnergy, Solid};
 pub use source::{Source, resolve};
 pub use step::StepRule;
 pub use types::{Output, Scene};
+pub use viscous::Viscous;
 pub use wcsph::{DensityCorrection, EquationOfState, Fluid, WallModel, WallPotential, Water};
 pub use words::{Dimension, Integrator, LatticeKind, RegionKind};
 

@@ -10,7 +10,7 @@ use super::builder::{Builder, Here};
 use super::declare::KeyValue;
 use super::page::{Page, text};
 use super::schema::{Family, ValueType};
-use super::{solid, wcsph};
+use super::{solid, viscous, wcsph};
 use crate::model_list::for_each_model;
 use std::sync::{PoisonError, RwLock};
 
@@ -29,7 +29,7 @@ macro_rules! scene_models {
             $(#[$doc:meta])*
             $variant:ident = $word:literal, keys $family:ident,
             made by $made:path, from $from:ident,
-            except [$($exclusion:expr)?];
+            except [$($exclusion:expr),* $(,)?];
         )+
     ) => {
         /// Which discretisation advances the fluid.
@@ -68,7 +68,7 @@ macro_rules! scene_models {
             /// What this model does not go with.
             pub(super) const fn exclusions(self) -> &'static [Exclusion] {
                 match self {
-                    $(Self::$variant => &[$($exclusion)?],)+
+                    $(Self::$variant => &[$($exclusion),*],)+
                     Self::Own(_) => &[],
                 }
             }

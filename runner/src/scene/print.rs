@@ -6,6 +6,7 @@ use super::region::{Region, Velocity};
 use super::region_keys::{BALL, BLOCK, ELLIPSOID, LAYER, POLYGON, REGION, SHAPE, SHELL, VELOCITY};
 use super::schema::TableRules;
 use super::shape::Shape;
+use super::viscous;
 use super::words::{Dimension, RegionKind};
 
 /// The name of a key and its value as it is printed.
@@ -29,7 +30,8 @@ pub(super) fn print_region(page: &mut Page, region: &Region) {
     let lattice = region.lattice.map(|lattice| text(lattice.word()));
     print_at(page, &REGION, "lattice", "lattice", lattice);
     print_shape(page, "shape", &region.shape);
-    if region.kind.is_of_the_model() && !region.held {
+    let wall_that_moves = region.kind == RegionKind::Wall && page.is_of(viscous::FAMILY);
+    if (region.kind.is_of_the_model() && !region.held) || wall_that_moves {
         print_velocity(page, region.velocity);
     }
 }

@@ -3,6 +3,7 @@
 use super::geometry::Vector3;
 use super::shape::Shape;
 use super::words::{LatticeKind, RegionKind};
+use loschmidt_core::schemes::solid::Motion;
 use std::f64::consts::PI;
 
 /// A part of the plane or space that is filled with particles.
@@ -15,12 +16,27 @@ pub struct Region {
     /// Arrangement of the particles of a fluid region; a wall has `None`, since it
     /// continues the lattice of the first fluid region.
     pub lattice: Option<LatticeKind>,
-    /// First velocity; `None` is at rest. A wall has `None`.
+    /// First velocity; `None` is at rest. Of a wall, how it slides or turns: in scenes of a viscous
+    /// fluid alone.
     pub velocity: Option<Velocity>,
     /// Name of the body that a solid region belongs to; `None`: a body of its own.
     pub body: Option<String>,
     /// Whether the particles of a solid region never move.
     pub held: bool,
+}
+
+impl Region {
+    /// How a wall moves; others stand still.
+    pub(super) fn motion(&self) -> Motion {
+        match (self.kind, self.velocity) {
+            (RegionKind::Wall, Some(Velocity::Uniform(velocity))) => Motion::Slides(velocity),
+            (RegionKind::Wall, Some(Velocity::Rotation { omega, centre })) => Motion::Turns {
+                rate: omega,
+                centre,
+            },
+            _ => Motion::Still,
+        }
+    }
 }
 
 /// A velocity field.

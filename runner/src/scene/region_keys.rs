@@ -35,7 +35,9 @@ pub(super) static REGION: TableRules = TableRules {
         key("shape", Table(&SHAPE))
             .required()
             .means("what is filled"),
-        key("velocity", Table(&VELOCITY)).means("first velocity of the fluid; absent: at rest"),
+        key("velocity", Table(&VELOCITY)).means(
+            "first velocity of the fluid, or how a wall of a viscous one moves; absent: at rest",
+        ),
     ],
 };
 

@@ -10,11 +10,11 @@ use super::region_keys::{
 };
 use super::schema::{Family, SceneKey, listed};
 use super::shape::Shape;
-use super::solid;
 use super::spec::{Entry, WrittenTable, WrittenValue};
 use super::values::{as_table, elements, number, numbers};
 use super::wcsph;
 use super::words::{ChoiceWord, Dimension, LatticeKind, RegionKind};
+use super::{solid, viscous};
 
 /// The axes by name, for messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -62,8 +62,10 @@ fn refuse_kind<'a>(builder: &mut Builder<'a>, here: Here<'a>, kind: RegionKind) 
         RegionKind::Solid if !builder.is_of(solid::FAMILY) => {
             "write `kind = \"fluid\"`, or set `model` to \"solid\""
         }
-        RegionKind::Fluid if !builder.is_of(wcsph::FAMILY) => "write `kind = \"solid\"`",
-        RegionKind::Wall if !builder.is_of(wcsph::FAMILY) => {
+        RegionKind::Fluid if builder.is_of(solid::FAMILY) && !builder.is_of(wcsph::FAMILY) => {
+            "write `kind = \"solid\"`"
+        }
+        RegionKind::Wall if builder.is_of(solid::FAMILY) && !builder.is_of(wcsph::FAMILY) => {
             "write `kind = \"solid\"` and `held = true`: a solid that never moves"
         }
         _ => return,
@@ -82,6 +84,25 @@ fn refuse_moving_clamp<'a>(builder: &mut Builder<'a>, here: Here<'a>, held: bool
             "a region that is held has no `velocity`".to_owned(),
             entry.key,
             "what is held stays where it is: remove it, or remove `held`".to_owned(),
+        );
+    }
+}
+
+/// Reports a wall whose velocity is not that of a rigid wall.
+fn refuse_shapeless_motion<'a>(
+    builder: &mut Builder<'a>,
+    here: Here<'a>,
+    velocity: Option<Velocity>,
+) {
+    let rigid = matches!(
+        velocity,
+        None | Some(Velocity::Uniform(_) | Velocity::Rotation { .. })
+    );
+    if let Some(entry) = here.table.get("velocity").filter(|_| !rigid) {
+        builder.conflict(
+            "a wall slides or turns".to_owned(),
+            entry.key,
+            "write `velocity.uniform`, or `velocity.rotation` and `velocity.centre`".to_owned(),
         );
     }
 }
@@ -122,8 +143,11 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
             ),
             ("velocity", "walls are at rest: remove it"),
         ];
+        let moves = builder.is_of(viscous::FAMILY);
         for (name, help) in rules {
-            if let Some(entry) = here.table.get(name) {
+            if let Some(entry) = here.table.get(name)
+                && !(moves && name == "velocity")
+            {
                 let message = format!("a wall region has no `{name}`");
                 builder.conflict(message, entry.key, help.to_owned());
             }
@@ -137,6 +161,9 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
     let velocity = builder
         .inner(here, "velocity", &VELOCITY)
         .and_then(|inner| velocity(builder, inner));
+    if kind == RegionKind::Wall {
+        refuse_shapeless_motion(builder, here, velocity);
+    }
     let shape = builder
         .inner(here, "shape", &SHAPE)
         .map_or(nothing(), |inner| shape(builder, inner));

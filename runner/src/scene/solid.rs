@@ -62,10 +62,14 @@ impl Solid {
     /// c_p² as the stiffest one of the bulk is for each of c_0².
     #[must_use]
     pub fn step_speed(&self) -> f64 {
-        let material = self.material();
-        let (longitudinal, penalty) = (material.longitudinal_speed(), material.penalty_speed);
-        (longitudinal * longitudinal + PENALTY_STIFFNESS * (penalty * penalty)).sqrt()
+        step_speed(&self.material())
     }
+}
+
+/// See [`Solid::step_speed`].
+pub(super) fn step_speed(material: &Material) -> f64 {
+    let (longitudinal, penalty) = (material.longitudinal_speed(), material.penalty_speed);
+    (longitudinal * longitudinal + PENALTY_STIFFNESS * (penalty * penalty)).sqrt()
 }
 
 /// See [`Solid::step_speed`].

@@ -4,8 +4,8 @@ use super::builder::{Builder, Here};
 use super::declare::Keys;
 use super::page::{Page, number};
 use super::schema::{Family, Range, SceneKey, ValueType, key};
-use super::solid;
 use super::spec::Entry;
+use super::{solid, viscous};
 
 /// How the time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,8 +22,8 @@ const CFL: SceneKey = key("cfl", ValueType::Number)
     .or(0.2)
     .means("Courant number: time step = cfl * h / sound_speed");
 
-/// As [`CFL`], with what it means for solids: see [`Solid::step_speed`](super::Solid::step_speed).
-const CFL_OF_SOLIDS: SceneKey = CFL.means(
+/// As [`CFL`], with what it means where particles carry a distortion: see [`Solid::step_speed`](super::Solid::step_speed).
+const CFL_OF_DISTORTION: SceneKey = CFL.means(
     "Courant number: time step = cfl * h / sqrt(c_L² + 4 c_p²), \
      c_L the speed of longitudinal waves",
 );
@@ -71,8 +71,8 @@ impl Keys for StepRule {
             Some(Self::Seconds(seconds)) => (None, Some(number(*seconds))),
             None => (None, None),
         };
-        let key = if page.is_of(solid::FAMILY) {
-            &CFL_OF_SOLIDS
+        let key = if page.is_of(solid::FAMILY) || page.is_of(viscous::FAMILY) {
+            &CFL_OF_DISTORTION
         } else {
             &CFL
         };

@@ -9,11 +9,13 @@ use super::region::Region;
 use super::schema::IfAbsent::{Number, Optional, Required, Word};
 use super::schema::Range::{Above, Any, Between};
 use super::schema::{ANY_MODEL, TableRules};
-use super::solid::Solid;
+use super::solid::{self, Solid};
 use super::step::StepRule;
+use super::viscous::Viscous;
 use super::wcsph::{Fluid, WallPotential, Water};
 use super::words::{Dimension, Integrator};
 use crate::time_unit::TimeUnit;
+use loschmidt_core::schemes::solid::Material;
 
 keys! {
     /// A validated scene. Points have three coordinates; in two dimensions every z is 0.
@@ -35,13 +37,15 @@ keys! {
         model: Model = Word(Model::Symplectic.word()), Any,
             "water: density by summation (reversible), advanced in time, \
              or summed with a filter of noise (dissipative); elastic bodies: \
-             reversible, or with the midpoint integrator of the paper";
+             reversible, or with the midpoint integrator of the paper; a viscous fluid \
+             (dissipative)";
         integrator: Integrator = Word(Integrator::StormerVerlet.word()), Any,
             "composition of drifts and kicks in a step";
         /// The settings of the weakly compressible models.
         ..water: Water;
         fluid: Option<Fluid> = Required, Any, "what the material is";
         solid: Option<Solid> = Required, Any, "what the bodies are made of";
+        viscous: Option<Viscous> = Required, Any, "what the viscous fluid is";
         gravity: Gravity = Optional, Any, "which outside forces act";
         wall: Option<WallPotential> = Optional, Any, "how a conservative wall repels";
         output: Output = Optional, Any, "how much a run writes; changes no bit of it";
@@ -112,30 +116,39 @@ impl Scene {
     /// The density of the material at rest, kg/m³ (kg/m² in the plane).
     #[must_use]
     pub fn reference_density(&self) -> f64 {
-        match (self.fluid, self.solid) {
-            (_, Some(solid)) => solid.reference_density,
-            (Some(fluid), _) => fluid.reference_density,
-            // A scene with a mistake, of which nothing is used.
-            (None, None) => f64::NAN,
-        }
+        let of_model = [
+            self.fluid.map(|fluid| fluid.reference_density),
+            self.solid.map(|solid| solid.reference_density),
+            self.viscous.map(|viscous| viscous.reference_density),
+        ];
+        // A scene without any has a mistake, and nothing of it is used.
+        of_model.into_iter().flatten().next().unwrap_or(f64::NAN)
     }
 
     /// The speed of sound in the material, m/s: in a solid, of longitudinal waves.
     #[must_use]
     pub fn sound_speed(&self) -> f64 {
-        match (self.fluid, self.solid) {
-            (_, Some(solid)) => solid.material().longitudinal_speed(),
-            (Some(fluid), _) => fluid.sound_speed,
+        match (self.material(), self.fluid) {
+            (Some(material), _) => material.longitudinal_speed(),
+            (None, Some(fluid)) => fluid.sound_speed,
             (None, None) => f64::NAN,
         }
     }
 
-    /// The speed that limits the time step, m/s: that of sound, and in a solid with what
-    /// [`Solid::step_speed`] adds.
+    /// The speed that limits the time step, m/s: that of sound, and with what
+    /// [`Solid::step_speed`] adds where particles carry a distortion.
     #[must_use]
     pub fn step_speed(&self) -> f64 {
-        self.solid
-            .map_or(self.sound_speed(), |solid| solid.step_speed())
+        self.material()
+            .map_or(self.sound_speed(), |material| solid::step_speed(&material))
+    }
+
+    /// What the particles are made of where they carry a distortion: an elastic body or a viscous
+    /// fluid.
+    #[must_use]
+    pub fn material(&self) -> Option<Material> {
+        let solid = self.solid.map(|solid| solid.material());
+        solid.or(self.viscous.map(|viscous| viscous.material()))
     }
 
     /// The mass of every particle, fluid and wall, kg (kg/m in the plane).

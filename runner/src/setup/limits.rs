@@ -9,14 +9,14 @@ use loschmidt_core::schemes::wcsph::Wall;
 /// Time steps that are small enough by the scene alone, s, by name:
 ///
 /// - `acoustic`: 0.4 h/c. Störmer–Verlet lost the dam break at 0.6 and kept it at 0.4.
-/// - `elastic`, in its place for solids: 0.4 h/sqrt(c_L² + 4 c_p²). The undeformed lattices of the
+/// - `elastic`, in its place where particles carry a distortion: 0.4 h/sqrt(c_L² + 4 c_p²). The undeformed lattices of the
 ///   scene language are stable up to 0.88, for any support from 2.4 to 4 spacings.
 /// - `wall`: 0.5 r_wall/sqrt(2 E). Near r_wall the conservative wall is a spring of frequency
 ///   sqrt(2 E)/r_wall, stable for time steps up to four times this.
 #[must_use]
 pub fn fixed_limits(scene: &Scene) -> Vec<(&'static str, f64)> {
     let acoustic = 0.4 * scene.support_radius() / scene.step_speed();
-    let name = match scene.solid {
+    let name = match scene.material() {
         Some(_) => "elastic",
         None => "acoustic",
     };

@@ -1,21 +1,22 @@
-//! The parameters of elastic bodies.
+//! The parameters of bodies and fluids whose particles carry a distortion.
 
 use super::{Bounds, fastest, first, max_buckets};
 use crate::scene::{InitialState, Scene};
 use loschmidt_core::Scale;
-use loschmidt_core::schemes::solid::{Parameters, Part};
+use loschmidt_core::schemes::solid::{FluidParameters, Parameters, Part, Relaxation, WallVelocity};
 
 /// The core's parameters of a scene of elastic bodies; those of another scene are refused by every
 /// model.
 #[must_use]
 pub fn solid_parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Parameters<D> {
     let bounds = Bounds::of(initial);
-    let (_, bodies) = scene.bodies();
-    let material = scene.solid.map(|solid| solid.material());
+    let material = scene.material();
+    let bodies = initial.parts.iter().map(|part| part.body + 1).max();
     let part = |part: &crate::scene::InitialPart| Part {
         first: part.first,
         body: part.body as u8,
         held: part.held,
+        motion: part.motion,
     };
     Parameters {
         support_radius: scene.support_radius(),
@@ -23,7 +24,7 @@ pub fn solid_parameters<const D: usize>(scene: &Scene, initial: &InitialState) -
         time_step: scene.time_step(),
         reference_density: scene.reference_density(),
         // A scene has one material, and at most as many bodies as there is room for.
-        materials: (0..bodies).filter_map(|_| material).collect(),
+        materials: (0..bodies.unwrap_or(0)).filter_map(|_| material).collect(),
         parts: initial.parts.iter().map(part).collect(),
         gravity: first(scene.gravity.uniform),
         scale: Scale::with_headroom(
@@ -33,5 +34,22 @@ pub fn solid_parameters<const D: usize>(scene: &Scene, initial: &InitialState) -
         ),
         extent: first(bounds.extent),
         max_buckets: max_buckets(initial.fluid.len()),
+    }
+}
+
+/// The core's parameters of a scene of a viscous fluid; those of another scene are refused by every
+/// model.
+#[must_use]
+pub fn fluid_parameters<const D: usize>(
+    scene: &Scene,
+    initial: &InitialState,
+) -> FluidParameters<D> {
+    let viscous = scene.viscous;
+    FluidParameters {
+        bodies: solid_parameters(scene, initial),
+        relaxation_time: viscous.map_or(f64::NAN, |viscous| viscous.relaxation_time()),
+        relaxation: viscous.map_or(Relaxation::Exact, |viscous| viscous.law()),
+        wall_velocity: viscous.map_or(WallVelocity::Plain, |viscous| viscous.pretended()),
+        start: viscous.map_or(0.0, |viscous| viscous.start),
     }
 }

@@ -21,20 +21,18 @@
 //!
 //! Source: Kincl, Peshkov, Pavelka & Klika, Appl. Math. Comput. 439 (2023) 127579, section 3.
 
+use super::bodies::Bodies;
 use super::energy;
-use super::fields::{FIELDS, GRADIENT, MOMENTS, ONE, ONE_RATE};
+use super::fields::{FIELDS, HELD};
 use super::parameters::Parameters;
-use super::passes::{ForcePass, GradientPass, MomentsPass, Reach};
-use super::updates::{
-    Advance, Begin, Fall, Hold, Midpoint as CayleyAdvance, NoGradient, NoMoments, READ_OF_FORCE,
-    Resolve, SetConstants, Stresses,
-};
+use super::passes::ForcePass;
+use super::updates::{Advance, Hold, Midpoint as CayleyAdvance, READ_OF_FORCE};
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::fields::{Field, IMPULSE, Side, VELOCITY};
+use crate::fields::{Field, IMPULSE, Side};
 use crate::integrator::Stage::{self, Drift, Kick, Lift};
 use crate::model::{MAX_ENERGIES, Measure, Model, Reversibility, Settings, SetupError};
-use crate::number::{Arithmetic, Quantity};
+use crate::number::Arithmetic;
 use crate::set::SetView;
 use crate::shears;
 use crate::system::{Sum, System};
@@ -75,14 +73,9 @@ pub type Midpoint<A, const D: usize> = Elastic<A, Middle, D>;
 /// Elastic bodies ("model B" without relaxation).
 #[derive(Clone, Debug)]
 pub struct Elastic<A: Arithmetic, C, const D: usize> {
-    parameters: Parameters<D>,
-    settings: Settings<D>,
-    reach: Reach,
+    bodies: Bodies<D>,
     of: PhantomData<(A, C)>,
 }
-
-/// What sums over velocities read.
-const READ_OF_GRADIENT: &[usize] = &[VELOCITY, super::fields::BODY];
 
 impl<A: Arithmetic, C: Composition, const D: usize> Elastic<A, C, D> {
     /// Bodies with these parameters.
@@ -90,99 +83,24 @@ impl<A: Arithmetic, C: Composition, const D: usize> Elastic<A, C, D> {
     /// # Errors
     /// A number out of range.
     pub fn new(parameters: Parameters<D>) -> Result<Self, SetupError> {
-        parameters.check()?;
-        let quantum = parameters.scale.length_quantum();
         Ok(Self {
-            settings: parameters.settings()?,
-            reach: Reach::new(D, parameters.support_radius, quantum),
-            parameters,
+            bodies: Bodies::new(parameters)?,
             of: PhantomData,
         })
     }
 
-    /// The parameters.
+    /// What solids and fluids share.
     #[must_use]
-    pub fn parameters(&self) -> &Parameters<D> {
-        &self.parameters
-    }
-
-    /// The sum dt K.
-    #[must_use]
-    pub fn gradient_pass(&self) -> GradientPass {
-        let p = &self.parameters;
-        let units = p.scale.length_quantum() * p.scale.speed_quantum() * ONE_RATE;
-        GradientPass {
-            reach: self.reach,
-            rate: (p.time_step * p.volume()) * units,
-        }
-    }
-
-    /// All sums over positions, and dt K.
-    #[must_use]
-    pub fn moments_pass(&self) -> MomentsPass {
-        let p = &self.parameters;
-        let quantum = p.scale.length_quantum();
-        MomentsPass {
-            gradient: self.gradient_pass(),
-            moment: (p.volume() * ONE) * (quantum * quantum),
-            volume: p.volume() * ONE,
-        }
+    pub fn bodies(&self) -> &Bodies<D> {
+        &self.bodies
     }
 
     /// The force.
     #[must_use]
     pub fn force_pass(&self) -> ForcePass {
-        ForcePass { reach: self.reach }
-    }
-
-    /// Stresses for a kick of `duration` seconds.
-    fn stresses(&self, duration: f64) -> Stresses {
-        let p = &self.parameters;
-        let units = p.scale.length_quantum() / p.scale.speed_quantum();
-        Stresses {
-            materials: p.materials.clone(),
-            factor: (duration * p.volume()) * units,
+        ForcePass {
+            reach: self.bodies.reach(),
         }
-    }
-
-    /// The pull of gravity in a kick of `duration` seconds.
-    fn fall(&self, duration: f64) -> Fall<A::Word, D> {
-        let quantum = self.parameters.scale.speed_quantum();
-        let mut impulse = Some([A::Word::ZERO; D]);
-        for (d, g) in self.parameters.gravity.iter().enumerate() {
-            let rounded = A::Word::ZERO.add_rounded(duration * g / quantum);
-            impulse = impulse.zip(rounded).map(|(mut impulse, word)| {
-                impulse[d] = word;
-                impulse
-            });
-        }
-        Fall { impulse }
-    }
-
-    /// H, ρ, λ and dt K of every particle, as sums.
-    fn sum_moments<E: Executor>(
-        &self,
-        system: &mut System<'_, A, D>,
-        exec: &E,
-    ) -> Result<(), Fault> {
-        // The sums over the particles are all there are.
-        system.locate(exec, false);
-        exec.points(&NoMoments, &mut system.particles)?;
-        let sum = Sum::to_particles(Side::Particles, READ_OF_GRADIENT, MOMENTS);
-        system.sum(exec, &self.moments_pass(), sum)
-    }
-
-    /// H⁻¹, ρ, λ and dt K of every particle.
-    fn moments<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
-        self.sum_moments(system, exec)?;
-        exec.points(&Resolve, &mut system.particles)
-    }
-
-    /// dt K alone, of particles that have not moved since the moments were summed.
-    fn gradients<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
-        exec.points(&NoGradient, &mut system.particles)?;
-        let sum = Sum::to_particles(Side::Particles, READ_OF_GRADIENT, GRADIENT);
-        system.sum(exec, &self.gradient_pass(), sum)
     }
 
     /// The impulses of a kick of c time steps, from moments and distortions.
@@ -192,9 +110,8 @@ impl<A: Arithmetic, C: Composition, const D: usize> Elastic<A, C, D> {
         exec: &E,
         c: f64,
     ) -> Result<(), Fault> {
-        let duration = c * self.parameters.time_step;
-        exec.points(&self.stresses(duration), &mut system.particles)?;
-        exec.points(&self.fall(duration), &mut system.particles)?;
+        exec.points(&self.bodies.stresses(c), &mut system.particles)?;
+        exec.points(&self.bodies.fall::<A>(c), &mut system.particles)?;
         let sum = Sum::to_particles(Side::Particles, READ_OF_FORCE, IMPULSE);
         system.sum(exec, &self.force_pass(), sum)?;
         exec.points(&Hold, &mut system.particles)
@@ -205,6 +122,7 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
     const FIELDS: &'static [Field] = &FIELDS;
     const ENERGIES: &'static [&'static str] = energy::NAMES;
     const COLUMNS: &'static [Measure] = energy::columns(D);
+    const HELD: Option<usize> = Some(HELD);
     const REVERSIBILITY: Reversibility = if A::EXACT && C::EXACT {
         Reversibility::BitExact
     } else {
@@ -212,7 +130,7 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
     };
 
     fn settings(&self) -> &Settings<D> {
-        &self.settings
+        self.bodies.settings()
     }
 
     /// A ← 1, θ ← 0, and the constants that make the first density ρ0 and the first λ 0.
@@ -223,14 +141,11 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
     ) -> Result<(), Fault> {
         system.clock.initialised = true;
         self.place_walls(system, exec)?;
-        let parameters = self.parameters.clone();
-        exec.points(&Begin { parameters }, &mut system.particles)?;
-        self.sum_moments(system, exec)?;
-        exec.points(&SetConstants, &mut system.particles)
+        self.bodies.begin(system, exec)
     }
 
     fn refresh<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
-        self.moments(system, exec)
+        self.bodies.moments(system, exec)
     }
 
     fn stages(&self, _: u64) -> impl Iterator<Item = Stage> {
@@ -245,10 +160,10 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
     ) -> Result<(), Fault> {
         match stage {
             Kick(c) => {
-                self.moments(system, exec)?;
+                self.bodies.moments(system, exec)?;
                 self.impulses(system, exec, c)
             }
-            Lift(_) => self.moments(system, exec),
+            Lift(_) => self.bodies.moments(system, exec),
             Drift(_) | Stage::Relax => Ok(()),
         }
     }
@@ -261,7 +176,7 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
     ) -> Result<(), Fault> {
         match stage {
             Kick(c) => self.impulses(system, exec, c),
-            Lift(_) => self.gradients(system, exec),
+            Lift(_) => self.bodies.gradients(system, exec),
             Drift(_) | Stage::Relax => Ok(()),
         }
     }
@@ -275,11 +190,7 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
         let particles = &mut system.particles;
         match stage {
             Kick(_) => exec.points(&shears::Kick, particles),
-            Drift(c) => {
-                let duration = c * self.parameters.time_step;
-                let drift = shears::Drift::new(duration, &self.parameters.scale);
-                exec.points(&drift, particles)
-            }
+            Drift(c) => exec.points(&self.bodies.drift(c), particles),
             Lift(share) if C::EXACT => exec.points(&Advance { share }, particles),
             Lift(share) => exec.points(&CayleyAdvance { share }, particles),
             Stage::Relax => Ok(()),
@@ -287,10 +198,10 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
     }
 
     fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault> {
-        Ok(energy::energies(&self.parameters, system))
+        Ok(energy::energies(self.bodies.parameters(), system))
     }
 
     fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
-        energy::column(&self.parameters, column, particles, place)
+        energy::column(self.bodies.parameters(), column, particles, place)
     }
 }

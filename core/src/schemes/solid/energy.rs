@@ -20,6 +20,20 @@ use crate::system::System;
 /// Kinds of energy.
 pub(super) const NAMES: &[&str] = &["kinetic", "bulk", "shear", "penalty", "gravitational"];
 
+/// The same of fluids: heat and what walls have taken come last.
+pub(super) const NAMES_OF_FLUIDS: &[&str] = &[
+    "kinetic",
+    "bulk",
+    "shear",
+    "penalty",
+    "gravitational",
+    "heat",
+    "drive",
+];
+
+/// Place of the heat among them.
+pub(super) const EXCHANGED: usize = 5;
+
 const fn measure(name: &'static str, unit: &'static str) -> Measure {
     Measure { name, unit }
 }
@@ -27,7 +41,7 @@ const fn measure(name: &'static str, unit: &'static str) -> Measure {
 /// Columns before the entries of the distortion.
 const BEFORE: usize = 4;
 
-const COLUMNS: [Measure; 13] = [
+const COLUMNS: [Measure; 14] = [
     measure("density", "kg/m³"),
     measure("pressure", "Pa"),
     measure("von Mises stress", "Pa"),
@@ -41,14 +55,29 @@ const COLUMNS: [Measure; 13] = [
     measure("distortion zx", ""),
     measure("distortion zy", ""),
     measure("distortion zz", ""),
+    measure("heat", "J/kg"),
 ];
 
-const IN_THE_PLANE: [Measure; 8] = [
-    COLUMNS[0], COLUMNS[1], COLUMNS[2], COLUMNS[3], COLUMNS[4], COLUMNS[5], COLUMNS[7], COLUMNS[8],
+const IN_THE_PLANE: [Measure; 9] = [
+    COLUMNS[0],
+    COLUMNS[1],
+    COLUMNS[2],
+    COLUMNS[3],
+    COLUMNS[4],
+    COLUMNS[5],
+    COLUMNS[7],
+    COLUMNS[8],
+    COLUMNS[13],
 ];
 
-/// What is recorded of a particle.
+/// What is recorded of a particle of a solid.
 pub(super) const fn columns(dimension: usize) -> &'static [Measure] {
+    let all = columns_of_fluids(dimension);
+    all.split_at(all.len() - 1).0
+}
+
+/// What is recorded of a particle of a fluid.
+pub(super) const fn columns_of_fluids(dimension: usize) -> &'static [Measure] {
     match dimension {
         2 => &IN_THE_PLANE,
         _ => &COLUMNS,

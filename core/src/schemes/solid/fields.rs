@@ -30,12 +30,29 @@ pub const CLUMPING: usize = 13;
 /// them.
 pub const STRESS: usize = 14;
 
+/// Where the surface of the wall is that a wall particle belongs to: the way there, and 0 for
+/// particles that flow. Fluids alone.
+pub const WALL_OFFSET: usize = 15;
+/// Heat that a particle has received, and work that it has taken out of the flow, per mass, in units
+/// of the square of [`Parameters::sound_speed`](super::Parameters::sound_speed). Fluids alone.
+pub const EXCHANGED: usize = 16;
+/// Impulses of the present kick in two parts, as [`SplitForce`](super::passes::SplitForce) has them.
+/// Fluids alone.
+pub const FORCES: usize = 17;
+/// Sums over the flow next to a wall, as [`Beside`](super::mirror::Beside) has them. Fluids alone.
+pub const BESIDE: usize = 18;
+
 /// Distortions and logarithms count 2^-48: they are kept below 8.
 pub(super) const STRAIN: Quantum = Quantum::Pure(48);
 /// Sums over positions count 2^-48: one term is kept below 8.
 pub(super) const SUM: Quantum = Quantum::Pure(48);
 /// Sums over dt times velocities count 2^-50: one term is kept below 2.
 pub(super) const RATE: Quantum = Quantum::Pure(50);
+
+/// Energies per mass count 2^-44 of their unit: a term is kept below 128 of them.
+pub(super) const ENERGY: Quantum = Quantum::Pure(44);
+/// 1 in quanta of [`ENERGY`].
+pub(super) const ONE_ENERGY: f64 = (1u64 << 44) as f64;
 
 /// 1 in quanta of [`STRAIN`] and [`SUM`].
 pub(super) const ONE: f64 = (1u64 << 48) as f64;
@@ -81,4 +98,20 @@ pub(super) const FIELDS: [Field; 15] = {
             Real,
         ),
     ]
+};
+
+/// The fields of a fluid: those of a solid, and what walls and heat need.
+pub(super) const FIELDS_OF_FLUIDS: [Field; 19] = {
+    use Quantum::{Length, Speed};
+    use Rank::{Several, Vector};
+    let mut all = [even("wall offset", Vector, Length); 19];
+    let mut f = 0;
+    while f < FIELDS.len() {
+        all[f] = FIELDS[f];
+        f += 1;
+    }
+    all[EXCHANGED] = even("exchanged energy", Several { plane: 2, space: 2 }, ENERGY);
+    all[FORCES] = Field::scratch("forces", Several { plane: 4, space: 6 }, Speed);
+    all[BESIDE] = Field::scratch("flow beside", Several { plane: 4, space: 5 }, SUM);
+    all
 };

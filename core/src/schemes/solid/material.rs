@@ -154,7 +154,7 @@ impl Material {
 
 /// dev G within the axes that are simulated, and in the plane its entry along the third.
 #[inline(always)]
-fn deviator<const D: usize>(metric: &Matrix<D>) -> (Matrix<D>, f64) {
+pub(super) fn deviator<const D: usize>(metric: &Matrix<D>) -> (Matrix<D>, f64) {
     let along_third = if D == 2 { 1.0 } else { 0.0 };
     let mean = (trace(metric) + along_third) / 3.0;
     let mut dev = *metric;

@@ -14,14 +14,34 @@ pub const MAX_BODIES: usize = 8;
 pub const MAX_PARTS: usize = 16;
 
 /// Particles with consecutive ids that belong to one body and are all held, or all free.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Part {
     /// Id of its first particle; it ends where the next part begins.
     pub first: u64,
     /// Number of the body.
     pub body: u8,
-    /// Whether its particles never move.
+    /// Whether its particles never move but by their motion.
     pub held: bool,
+    /// How held particles move, once at full speed. Fluids alone: those of solids stand still.
+    pub motion: Motion,
+}
+
+/// The motion of a wall; in the plane the third components do not count.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Motion {
+    /// It stands still.
+    #[default]
+    Still,
+    /// It slides along itself, as a lid does: its particles stay where they are and pretend to have
+    /// this velocity, m/s.
+    Slides([f64; 3]),
+    /// It turns about an axis, and its particles with it.
+    Turns {
+        /// Angular velocity, rad/s; in the plane along the third axis.
+        rate: [f64; 3],
+        /// A point on the axis, m.
+        centre: [f64; 3],
+    },
 }
 
 /// The material of a body. Its number comes with a state, which may have been written by anybody.
@@ -85,11 +105,7 @@ impl<const D: usize> Parameters<D> {
     pub fn part_of(&self, id: u64) -> Part {
         let before = |part: &&Part| part.first <= id;
         let part = self.parts.iter().rev().find(before);
-        part.copied().unwrap_or(Part {
-            first: 0,
-            body: 0,
-            held: false,
-        })
+        part.copied().unwrap_or_default()
     }
 
     /// What the body of this number is made of; one that does not exist, of the first material.

@@ -5,6 +5,7 @@
 //! | [`GradientPass`] | dt K = Σ dt V0 (W'/r) v_ij x_ijᵀ | symmetric |
 //! | [`MomentsPass`] | H = Σ V0 (W'/r) x_ij x_ijᵀ; Σ V0 W; Σ V0 h dW/dh; dt K | symmetric |
 //! | [`ForcePass`] | κ Σ V0 ((T_i + T_j) (W'/r) - (c_p²λ_i + c_p²λ_j) s) x_ij | antisymmetric |
+//! | [`SplitForcePass`] | the same, what shear adds to it by itself | antisymmetric |
 //!
 //! V0 is the volume of a particle, s = (1/r) d(h dW/dh)/dr, and κ the kick's share of the time step:
 //! terms of the force enter the state as impulses. H, K, λ and the shear part of T run over the
@@ -32,6 +33,14 @@ impl Reach {
             kernel: WendlandC2::new(dimension, support_radius, quantum),
             squared: reach * reach,
         }
+    }
+    /// The kernel, with its argument in length quanta.
+    pub(super) fn kernel(&self) -> &WendlandC2 {
+        &self.kernel
+    }
+    /// The square of its reach, in length quanta.
+    pub(super) fn squared(&self) -> f64 {
+        self.squared
     }
     /// What |W'| does not exceed, times a quantum.
     fn largest_slope(&self) -> f64 {
@@ -241,19 +250,91 @@ impl<const D: usize> PairPass<D> for ForcePass {
         i: &Stressed<L, D>,
         j: &Stressed<L, D>,
     ) -> [L; D] {
-        let slope = self.reach.kernel.derivative_over_r_at(q);
-        let structural = self.reach.kernel.structural_derivative_over_r_at(q);
-        let same = in_one_body(i.body, j.body);
-        let radial =
-            (i.pressure + j.pressure) * slope + ((i.clumping + j.clumping) * structural) * same;
-        let own = slope * same;
+        let (own, radial) = factors(&self.reach, q, i, j);
         let mut term = *x_ij;
         for (d, term) in term.iter_mut().enumerate() {
-            let mut traction = (i.shear[d][0] + j.shear[d][0]) * x_ij[0];
-            for (c, x) in x_ij.iter().enumerate().skip(1) {
-                traction = traction + (i.shear[d][c] + j.shear[d][c]) * *x;
-            }
-            *term = own * traction + radial * *term;
+            *term = own * traction(x_ij, &i.shear[d], &j.shear[d]) + radial * *term;
+        }
+        term
+    }
+}
+
+/// What multiplies the tractions, and x_ij: the factors of shear, and of pressures and penalties.
+#[inline(always)]
+fn factors<L: Lanes, const D: usize>(
+    reach: &Reach,
+    q: L,
+    i: &Stressed<L, D>,
+    j: &Stressed<L, D>,
+) -> (L, L) {
+    let slope = reach.kernel.derivative_over_r_at(q);
+    let structural = reach.kernel.structural_derivative_over_r_at(q);
+    let same = in_one_body(i.body, j.body);
+    let radial =
+        (i.pressure + j.pressure) * slope + ((i.clumping + j.clumping) * structural) * same;
+    (slope * same, radial)
+}
+
+/// (T_i + T_j) x_ij, of a row of T.
+#[inline(always)]
+fn traction<L: Lanes, const D: usize>(x_ij: &[L; D], i: &[L; D], j: &[L; D]) -> L {
+    let mut traction = (i[0] + j[0]) * x_ij[0];
+    for (c, x) in x_ij.iter().enumerate().skip(1) {
+        traction = traction + (i[c] + j[c]) * *x;
+    }
+    traction
+}
+
+values! {
+    /// An impulse in two parts.
+    pub struct SplitForce {
+        /// Of shear: what acts on the velocities that walls pretend to have.
+        shear: [T; D],
+        /// Of pressures and penalties: what acts on the velocities that particles have.
+        rest: [T; D],
+    }
+}
+
+/// [`ForcePass`], with the two parts kept apart: the work that walls do needs them.
+#[derive(Clone, Copy, Debug)]
+pub struct SplitForcePass {
+    pub(super) whole: ForcePass,
+}
+
+impl<const D: usize> PairPass<D> for SplitForcePass {
+    type Read<T: Copy> = Stressed<T, D>;
+    type Term<T: Copy> = SplitForce<T, D>;
+    const PARITY: SplitForce<Parity, D> = SplitForce {
+        shear: [Parity::Antisymmetric; D],
+        rest: [Parity::Antisymmetric; D],
+    };
+    #[inline(always)]
+    fn reach_squared(&self) -> f64 {
+        self.whole.reach.squared
+    }
+    fn bound(&self, largest: &Stressed<f64, D>) -> f64 {
+        self.whole.bound(largest)
+    }
+    #[inline(always)]
+    fn argument<L: Lanes>(&self, r2: L) -> L {
+        self.whole.reach.kernel.q(r2.root())
+    }
+    #[inline(always)]
+    fn term<L: Lanes>(
+        &self,
+        x_ij: &[L; D],
+        q: L,
+        i: &Stressed<L, D>,
+        j: &Stressed<L, D>,
+    ) -> SplitForce<L, D> {
+        let (own, radial) = factors(&self.whole.reach, q, i, j);
+        let mut term = SplitForce {
+            shear: *x_ij,
+            rest: *x_ij,
+        };
+        for d in 0..D {
+            term.shear[d] = own * traction(x_ij, &i.shear[d], &j.shear[d]);
+            term.rest[d] = radial * x_ij[d];
         }
         term
     }

@@ -279,7 +279,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Fall<A::Word, D> {
 
 /// -c dt L of a particle.
 #[inline(always)]
-fn displacement<W: Word, const D: usize>(flow: &Flow<W, D>, c: f64) -> Matrix<D> {
+pub(super) fn displacement<W: Word, const D: usize>(flow: &Flow<W, D>, c: f64) -> Matrix<D> {
     let gradient = scaled(&flow.gradient, -c / ONE_RATE);
     product(&gradient, &flow.inverse.rows.map(|row| row.map(Word::real)))
 }
@@ -323,6 +323,21 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Advance {
     }
 }
 
+/// (1 + m/2) (1 - m/2)⁻¹: Cayley's transformation, which is exp(m) up to terms of order m³.
+#[inline(always)]
+pub(super) fn cayley<const D: usize>(m: &Matrix<D>) -> Matrix<D> {
+    let (mut forward, mut backward) = (*m, *m);
+    for i in 0..D {
+        for j in 0..D {
+            let one = if i == j { 1.0 } else { 0.0 };
+            let half = 0.5 * m[i][j];
+            forward[i][j] = one + half;
+            backward[i][j] = one - half;
+        }
+    }
+    product(&forward, &inverse(&backward))
+}
+
 /// A ← A (1 - c dt L/2) (1 + c dt L/2)⁻¹, eq. (49), rounded.
 #[derive(Clone, Copy, Debug)]
 pub struct Midpoint {
@@ -342,16 +357,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Midpoint {
         read: &Flow<A::Word, D>,
         write: &mut Shape<A::Word, D>,
     ) -> Result<(), Fault> {
-        let half = displacement(read, 0.5 * self.share);
-        let (mut forward, mut backward) = (half, half);
-        for i in 0..D {
-            for j in 0..D {
-                let one = if i == j { 1.0 } else { 0.0 };
-                forward[i][j] = one + half[i][j];
-                backward[i][j] = one - half[i][j];
-            }
-        }
-        let factor = product(&forward, &inverse(&backward));
+        let factor = cayley(&displacement(read, self.share));
         let advanced = product(&scaled(&write.distortion, 1.0), &factor);
         for (words, values) in write.distortion.iter_mut().zip(&advanced) {
             for (word, value) in words.iter_mut().zip(values) {

@@ -21,6 +21,7 @@ use super::updates::Average;
 use crate::executor::Executor;
 use crate::fault::Fault;
 use crate::fields::{IMPULSE, VELOCITY};
+use crate::integrator::Stage;
 use crate::model::{Dissipative, Model, Relax, SetupError};
 use crate::number::Arithmetic;
 use crate::shears::NoImpulse;
@@ -53,9 +54,11 @@ impl<A: Arithmetic, const D: usize> Relax<A, D> for Filter<A, D> {
         &self.scheme
     }
 
-    fn is_due(&self, step: u64) -> bool {
+    /// Those of the scheme, and the filter after every M-th step.
+    fn stages(&self, step: u64) -> impl Iterator<Item = Stage> {
         let every = self.scheme.water().parameters().filter_every;
-        every > 0 && step.is_multiple_of(every)
+        let due = every > 0 && step.is_multiple_of(every);
+        self.scheme.stages(step).chain(due.then_some(Stage::Relax))
     }
 
     /// Replaces the velocities by their averages. The memory of the impulses is used for the sums.
