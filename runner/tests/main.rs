@@ -6,3 +6,4 @@ mod scene_errors;
 mod scene_lattice;
 mod scene_solid;
 mod scene_text;
+mod scene_viscous;

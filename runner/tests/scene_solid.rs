@@ -1,5 +1,6 @@
 //! What scenes of elastic bodies mean: their keys, bodies and clamps, and first velocities.
 
+use loschmidt_core::schemes::solid::Motion;
 use loschmidt_runner::scene::{
     ElasticEnergy, InitialPart, InitialState, LatticeKind, Model, Scene, SceneError, Source,
     StepRule, Velocity, load,
@@ -251,7 +252,12 @@ shape.rectangle = { min = [6, 0], max = [7, 0.1] }
     let scene = read(&[HEAD, regions].concat(), &[]);
     assert_eq!(scene.bodies(), (vec![0, 1, 0, 2], 3));
     let state = state(&scene);
-    let part = |first, body, held| InitialPart { first, body, held };
+    let part = |first, body, held| InitialPart {
+        first,
+        body,
+        held,
+        motion: Motion::Still,
+    };
     let expected = [
         part(0, 0, false),
         part(20, 1, false),

@@ -132,7 +132,7 @@ fn the_print_names_every_key_with_unit_and_meaning() {
     }
     assert!(printed.contains("# m; side of the square"), "{printed}");
     assert!(
-        printed.contains("# \"symplectic\", \"standard\", \"filtered\", \"solid\" or "),
+        printed.contains("# \"symplectic\", \"standard\", \"filtered\", \"solid\", "),
         "{printed}"
     );
     for line in printed.lines().filter(|line| line.contains(" = ")) {

@@ -2,6 +2,8 @@
 #![cfg(unix)]
 
 use crate::program::{Workplace, end, files_below, signal, wait_for_lines};
+use loschmidt_core::digest::hash;
+use loschmidt_runner::output::Snapshot;
 use std::fs;
 use std::path::Path;
 
@@ -184,6 +186,25 @@ fn a_snapshot_in_the_place_of_another_is_refused() {
             &[&format!("{name}.snapshot holds the state after step ")],
         );
         fs::write(path(name), own).expect("written");
+    }
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+}
+
+#[test]
+fn a_run_of_a_version_with_other_comments_goes_on() {
+    let place = Workplace::new();
+    broken(&place, "a", &[]);
+    let scene = place.join("a/scene.toml");
+    let text = fs::read_to_string(&scene).expect("a scene");
+    let older = text.replacen("# ", "# formerly ", 3);
+    assert_ne!(text, older);
+    fs::write(&scene, &older).expect("written");
+    for name in ["home", "turnaround", "latest"] {
+        let path = place.join("a/snapshots").join(format!("{name}.snapshot"));
+        let mut snapshot = Snapshot::read(&path).expect("a snapshot");
+        snapshot.scene = hash(older.as_bytes());
+        let mut file = fs::File::create(&path).expect("a file");
+        snapshot.write(&mut file).expect("written");
     }
     place.call(&["resume", "a", "--quiet"]).with_code(0);
 }

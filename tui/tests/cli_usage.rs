@@ -16,6 +16,8 @@ const CATALOGUE: [&str; 10] = [
     "twisting-column",
     "colliding-rings",
     "cantilever",
+    "taylor-couette",
+    "lid-driven-cavity",
 ];
 
 /// Makes a few dozen steps of a scene of the catalogue.

@@ -3,7 +3,7 @@
 use super::messages::Meddling;
 use crate::output::{OutputError, RunDirectory, Snapshot};
 use crate::player::{Arrow, Player};
-use crate::run::{Row, RunError, scene_hash};
+use crate::run::{Row, RunError, belongs};
 use crate::saved::{ArithmeticKind, SavedState};
 use crate::scene::{self, Scene, SceneError, Source};
 use crate::setup;
@@ -107,7 +107,7 @@ impl Opening {
         let read = |name: &str| -> Result<Snapshot, OpeningError> {
             let file = RunDirectory::snapshot_path(path, name);
             let snapshot = Snapshot::read(&file).map_err(OutputError::from)?;
-            if snapshot.scene == scene_hash(&scene) {
+            if belongs(&snapshot, path, &scene) {
                 Ok(snapshot)
             } else {
                 Err(RunError::ForeignSnapshot(file).into())

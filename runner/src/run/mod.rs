@@ -9,8 +9,8 @@ mod outcome;
 mod plan;
 mod row;
 
-pub(crate) use course::scene_hash;
 pub use course::{Progress, Run};
+pub(crate) use course::{belongs, scene_hash};
 pub use error::RunError;
 pub use outcome::{
     Angular, AngularMomentum, Cost, Digests, EnergyBalance, Entropy, Momentum, Outcome,

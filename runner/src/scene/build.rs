@@ -53,7 +53,7 @@ fn name<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene, stem: &
 
 /// Walls that act by a potential need one.
 fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
-    if scene.material().is_some() {
+    if scene.has_distortion() {
         return;
     }
     let model = builder.word(top, "wall_model");
@@ -81,7 +81,7 @@ fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
 
 /// Bodies: not too many, one lattice each, and no forces that their models do not know.
 fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
-    if scene.material().is_none() {
+    if !scene.has_distortion() {
         return;
     }
     if let Some(entry) = top.table.get("gravity")
@@ -119,19 +119,24 @@ fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
     }
     for (number, node) in elements(&entry.node).iter().enumerate() {
         let first = numbers.iter().position(|body| *body == numbers[number]);
-        let lattice = scene.regions[first.unwrap_or(number)].lattice;
-        let written = as_table(node).and_then(|table| table.get("lattice"));
-        let Some(written) = written else {
-            // It continues that of the body, as its print says.
-            scene.regions[number].lattice = lattice;
-            continue;
-        };
-        if scene.regions[number].lattice != lattice {
-            builder.conflict(
-                "the regions of a body have one lattice, that of its first region".to_owned(),
-                written.node.span,
-                "remove it, or give the region a `body` of its own".to_owned(),
-            );
+        let first = first.unwrap_or(number);
+        let (lattice, material) = (scene.regions[first].lattice, scene.regions[first].material);
+        let written = |key| as_table(node).and_then(|table| table.get(key));
+        let region = &mut scene.regions[number];
+        // What is not written is that of the body, as the print of the region says.
+        let differs = [
+            (written("lattice"), "lattice", region.lattice != lattice),
+            (written("material"), "material", region.material != material),
+        ];
+        (region.lattice, region.material) = (lattice, material);
+        for (written, what, differs) in differs {
+            if let Some(written) = written.filter(|_| differs) {
+                builder.conflict(
+                    format!("the regions of a body have one {what}, that of its first region"),
+                    written.node.span,
+                    "remove it, or give the region a `body` of its own".to_owned(),
+                );
+            }
         }
     }
 }

@@ -84,4 +84,16 @@ const ENTRIES: &[CatalogueEntry] = &[
         citation: "Euler-Bernoulli beam; material of Turek & Hron, LNCSE 53 (2006) 371",
         text: include_str!("../../scenes/cantilever.toml"),
     },
+    CatalogueEntry {
+        name: "taylor-couette",
+        title: "a viscous fluid between two cylinders, of which the outer one turns",
+        citation: "Kincl et al., Appl. Math. Comput. 439 (2023) 127579, section 4.3",
+        text: include_str!("../../scenes/taylor-couette.toml"),
+    },
+    CatalogueEntry {
+        name: "lid-driven-cavity",
+        title: "a box of viscous fluid under a sliding lid, at a Reynolds number of 100",
+        citation: "Kincl et al., Appl. Math. Comput. 439 (2023) 127579, section 4.4",
+        text: include_str!("../../scenes/lid-driven-cavity.toml"),
+    },
 ];

@@ -129,7 +129,7 @@ impl Scene {
                 &mut state.wall
             };
             let before = points.len();
-            if self.material().is_some() {
+            if self.has_distortion() {
                 state.parts.push(InitialPart {
                     first: before as u64,
                     // A viscous fluid is one body with its walls.
@@ -244,7 +244,7 @@ impl Scene {
 
     /// The regions that hold particles, with their numbers in file order.
     fn filled_regions(&self) -> impl Iterator<Item = (usize, &Region)> {
-        let walls = self.material().is_some() || self.water.wall_model != WallModel::None;
+        let walls = self.has_distortion() || self.water.wall_model != WallModel::None;
         self.regions
             .iter()
             .enumerate()

@@ -75,13 +75,13 @@ pub use forces::{CentralGravity, Gravity};
 pub use geometry::Vector3;
 pub use initial::{InitialPart, InitialState};
 pub use model::Model;
-pub use region::{Region, Velocity};
+pub use region::{MaterialOfBody, Region, Velocity};
 pub use shape::Shape;
 pub use solid::{ElasticEnergy, Solid};
 pub use source::{Source, resolve};
 pub use step::StepRule;
 pub use types::{Output, Scene};
-pub use viscous::Viscous;
+pub use viscous::{Relaxation, Viscous, WallVelocity};
 pub use wcsph::{DensityCorrection, EquationOfState, Fluid, WallModel, WallPotential, Water};
 pub use words::{Dimension, Integrator, LatticeKind, RegionKind};
 

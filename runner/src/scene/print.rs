@@ -2,8 +2,10 @@
 
 use super::geometry::Vector3;
 use super::page::{Page, comment, list, number, text};
-use super::region::{Region, Velocity};
-use super::region_keys::{BALL, BLOCK, ELLIPSOID, LAYER, POLYGON, REGION, SHAPE, SHELL, VELOCITY};
+use super::region::{MaterialOfBody, Region, Velocity};
+use super::region_keys::{
+    BALL, BLOCK, ELLIPSOID, LAYER, MATERIAL, POLYGON, REGION, SHAPE, SHELL, VELOCITY,
+};
 use super::schema::TableRules;
 use super::shape::Shape;
 use super::viscous;
@@ -25,6 +27,7 @@ pub(super) fn print_region(page: &mut Page, region: &Region) {
             "body",
             region.body.as_deref().map(text),
         );
+        print_material(page, &region.material);
         print_at(page, &REGION, "held", "held", Some(region.held.to_string()));
     }
     let lattice = region.lattice.map(|lattice| text(lattice.word()));
@@ -33,6 +36,19 @@ pub(super) fn print_region(page: &mut Page, region: &Region) {
     let wall_that_moves = region.kind == RegionKind::Wall && page.is_of(viscous::FAMILY);
     if (region.kind.is_of_the_model() && !region.held) || wall_that_moves {
         print_velocity(page, region.velocity);
+    }
+}
+
+/// Prints in what a body differs from the scene's solid.
+fn print_material(page: &mut Page, material: &MaterialOfBody) {
+    let values = [
+        ("bulk_speed", material.bulk_speed.map(number)),
+        ("shear_speed", material.shear_speed.map(number)),
+        ("penalty", material.penalty.map(number)),
+        ("energy", material.energy.map(|energy| text(energy.word()))),
+    ];
+    for (name, value) in values {
+        print_at(page, &MATERIAL, name, &format!("material.{name}"), value);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::geometry::Vector3;
 use super::shape::Shape;
+use super::solid::{ElasticEnergy, Solid};
 use super::words::{LatticeKind, RegionKind};
 use loschmidt_core::schemes::solid::Motion;
 use std::f64::consts::PI;
@@ -21,8 +22,37 @@ pub struct Region {
     pub velocity: Option<Velocity>,
     /// Name of the body that a solid region belongs to; `None`: a body of its own.
     pub body: Option<String>,
+    /// In what its body differs from the table `[solid]`.
+    pub material: MaterialOfBody,
     /// Whether the particles of a solid region never move.
     pub held: bool,
+}
+
+/// What a body is made of, as far as it differs from the scene's solid.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MaterialOfBody {
+    /// c_0, m/s.
+    pub bulk_speed: Option<f64>,
+    /// c_s, m/s.
+    pub shear_speed: Option<f64>,
+    /// c_p/c_0.
+    pub penalty: Option<f64>,
+    /// Energy of shear.
+    pub energy: Option<ElasticEnergy>,
+}
+
+impl MaterialOfBody {
+    /// The solid that it is, where the scene's is this.
+    #[must_use]
+    pub fn of(&self, solid: Solid) -> Solid {
+        Solid {
+            reference_density: solid.reference_density,
+            bulk_speed: self.bulk_speed.unwrap_or(solid.bulk_speed),
+            shear_speed: self.shear_speed.unwrap_or(solid.shear_speed),
+            penalty: self.penalty.unwrap_or(solid.penalty),
+            energy: self.energy.unwrap_or(solid.energy),
+        }
+    }
 }
 
 impl Region {

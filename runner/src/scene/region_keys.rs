@@ -7,7 +7,7 @@ use super::schema::ValueType::{
     Choice, Flag, Matrix, Number, Rotation, Table, Tables, Text, Vector,
 };
 use super::schema::{Form, SceneKey, TableRules, ValueType, key};
-use super::solid;
+use super::solid::{self, ElasticEnergy};
 use super::words::Dimension::{Three, Two};
 use super::words::{LatticeKind, RegionKind};
 
@@ -26,6 +26,9 @@ pub(super) static REGION: TableRules = TableRules {
         key("body", Text)
             .of(solid::FAMILY)
             .means("name of the body; regions of one name are one body; absent: a body of its own"),
+        key("material", Table(&MATERIAL))
+            .of(solid::FAMILY)
+            .means("in what the body differs from the table `[solid]`"),
         key("held", Flag)
             .of(solid::FAMILY)
             .means("whether the particles are held in their places, a clamp"),
@@ -38,6 +41,30 @@ pub(super) static REGION: TableRules = TableRules {
         key("velocity", Table(&VELOCITY)).means(
             "first velocity of the fluid, or how a wall of a viscous one moves; absent: at rest",
         ),
+    ],
+};
+
+pub(super) static MATERIAL: TableRules = TableRules {
+    title: "a `material`",
+    form: Form::Other,
+    keys: &[
+        key("bulk_speed", Number)
+            .unit("m/s")
+            .of(solid::FAMILY)
+            .within(Above(0.0))
+            .means("c_0 of this body"),
+        key("shear_speed", Number)
+            .unit("m/s")
+            .of(solid::FAMILY)
+            .within(Above(0.0))
+            .means("c_s of this body"),
+        key("penalty", Number)
+            .of(solid::FAMILY)
+            .within(AtLeast(0.0))
+            .means("c_p/c_0 of this body"),
+        key("energy", Choice(ElasticEnergy::WORDS))
+            .of(solid::FAMILY)
+            .means("energy of shear of this body"),
     ],
 };
 

@@ -4,9 +4,9 @@ use super::builder::{Builder, Here};
 use super::declare::Keys;
 use super::page::Page;
 use super::print::print_region;
-use super::region::{Region, Velocity};
+use super::region::{MaterialOfBody, Region, Velocity};
 use super::region_keys::{
-    BALL, BLOCK, ELLIPSOID, LAYER, POLYGON, REGION, REGIONS, SHAPE, SHELL, VELOCITY,
+    BALL, BLOCK, ELLIPSOID, LAYER, MATERIAL, POLYGON, REGION, REGIONS, SHAPE, SHELL, VELOCITY,
 };
 use super::schema::{Family, SceneKey, listed};
 use super::shape::Shape;
@@ -157,6 +157,9 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
     let held = builder.flag(here, "held");
     refuse_moving_clamp(builder, here, held);
     let body = builder.text(here, "body").map(str::to_owned);
+    let material = builder
+        .inner(here, "material", &MATERIAL)
+        .map_or_else(MaterialOfBody::default, |inner| material(builder, inner));
     let lattice = lattice(builder, here);
     let velocity = builder
         .inner(here, "velocity", &VELOCITY)
@@ -173,7 +176,18 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
         lattice: kind.is_of_the_model().then_some(lattice),
         velocity,
         body,
+        material,
         held,
+    }
+}
+
+fn material<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> MaterialOfBody {
+    let energy = here.table.get("energy").is_some();
+    MaterialOfBody {
+        bulk_speed: builder.optional_number(here, "bulk_speed"),
+        shear_speed: builder.optional_number(here, "shear_speed"),
+        penalty: builder.optional_number(here, "penalty"),
+        energy: energy.then(|| builder.word(here, "energy")).flatten(),
     }
 }
 

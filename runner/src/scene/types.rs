@@ -128,27 +128,48 @@ impl Scene {
     /// The speed of sound in the material, m/s: in a solid, of longitudinal waves.
     #[must_use]
     pub fn sound_speed(&self) -> f64 {
-        match (self.material(), self.fluid) {
-            (Some(material), _) => material.longitudinal_speed(),
-            (None, Some(fluid)) => fluid.sound_speed,
-            (None, None) => f64::NAN,
-        }
+        let fastest = self.fastest(Material::longitudinal_speed);
+        // A scene without any has a mistake, and nothing of it is used.
+        fastest.unwrap_or(self.fluid.map_or(f64::NAN, |fluid| fluid.sound_speed))
     }
 
     /// The speed that limits the time step, m/s: that of sound, and with what
     /// [`Solid::step_speed`] adds where particles carry a distortion.
     #[must_use]
     pub fn step_speed(&self) -> f64 {
-        self.material()
-            .map_or(self.sound_speed(), |material| solid::step_speed(&material))
+        let fastest = self.fastest(solid::step_speed);
+        fastest.unwrap_or(self.sound_speed())
     }
 
-    /// What the particles are made of where they carry a distortion: an elastic body or a viscous
-    /// fluid.
+    /// The largest of these speeds of all materials.
+    fn fastest(&self, speed: impl Fn(&Material) -> f64) -> Option<f64> {
+        self.materials().iter().map(speed).reduce(f64::max)
+    }
+
+    /// Whether particles carry a distortion: in elastic bodies and in viscous fluids.
     #[must_use]
-    pub fn material(&self) -> Option<Material> {
-        let solid = self.solid.map(|solid| solid.material());
-        solid.or(self.viscous.map(|viscous| viscous.material()))
+    pub fn has_distortion(&self) -> bool {
+        self.solid.is_some() || self.viscous.is_some()
+    }
+
+    /// What each elastic body is made of, or the one viscous fluid; nothing in scenes of water.
+    #[must_use]
+    pub fn materials(&self) -> Vec<Material> {
+        let viscous = self.viscous.map(|viscous| viscous.material());
+        let solids = self.solids().into_iter().map(|solid| solid.material());
+        viscous.into_iter().chain(solids).collect()
+    }
+
+    /// What each elastic body is made of.
+    #[must_use]
+    pub fn solids(&self) -> Vec<Solid> {
+        let (bodies, count) = self.bodies();
+        let of_body = |body: usize| {
+            let region = bodies.iter().position(|number| *number == body)?;
+            let solid = self.solid?;
+            Some(self.regions[region].material.of(solid))
+        };
+        (0..count).filter_map(of_body).collect()
     }
 
     /// The mass of every particle, fluid and wall, kg (kg/m in the plane).

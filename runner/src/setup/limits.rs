@@ -16,9 +16,10 @@ use loschmidt_core::schemes::wcsph::Wall;
 #[must_use]
 pub fn fixed_limits(scene: &Scene) -> Vec<(&'static str, f64)> {
     let acoustic = 0.4 * scene.support_radius() / scene.step_speed();
-    let name = match scene.material() {
-        Some(_) => "elastic",
-        None => "acoustic",
+    let name = if scene.has_distortion() {
+        "elastic"
+    } else {
+        "acoustic"
     };
     let mut limits = vec![(name, acoustic)];
     if let Wall::Conservative { energy, radius, .. } = wall(scene) {

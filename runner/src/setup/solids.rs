@@ -10,8 +10,6 @@ use loschmidt_core::schemes::solid::{FluidParameters, Parameters, Part, Relaxati
 #[must_use]
 pub fn solid_parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Parameters<D> {
     let bounds = Bounds::of(initial);
-    let material = scene.material();
-    let bodies = initial.parts.iter().map(|part| part.body + 1).max();
     let part = |part: &crate::scene::InitialPart| Part {
         first: part.first,
         body: part.body as u8,
@@ -23,8 +21,8 @@ pub fn solid_parameters<const D: usize>(scene: &Scene, initial: &InitialState) -
         particle_spacing: scene.particle_spacing,
         time_step: scene.time_step(),
         reference_density: scene.reference_density(),
-        // A scene has one material, and at most as many bodies as there is room for.
-        materials: (0..bodies.unwrap_or(0)).filter_map(|_| material).collect(),
+        // A scene has at most as many bodies as there is room for.
+        materials: scene.materials().into_iter().collect(),
         parts: initial.parts.iter().map(part).collect(),
         gravity: first(scene.gravity.uniform),
         scale: Scale::with_headroom(

@@ -6,7 +6,7 @@ use crate::exit::{Failure, USAGE};
 use crate::progress::duration;
 use loschmidt_core::Fault;
 use loschmidt_runner::run::Plan;
-use loschmidt_runner::scene::{Scene, Solid, load, resolve};
+use loschmidt_runner::scene::{InitialState, Relaxation, Scene, Solid, Viscous, load, resolve};
 use loschmidt_runner::setup;
 use loschmidt_runner::{Options, Player};
 use std::process::ExitCode;
@@ -25,6 +25,7 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     setup::check_memory(&scene).map_err(loschmidt_runner::RunError::from)?;
     let initial = scene.initial_state()?;
     let (fluid, walls) = (initial.fluid.len(), initial.wall.len());
+    let particles = particles(&scene, &initial);
     let plan = Plan::of(&scene);
     let dt = scene.time_step();
     let options = Options::default();
@@ -36,10 +37,6 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     let mut text = String::new();
     let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
     line("scene", player.scene().name.clone());
-    let particles = match player.scene().solid {
-        Some(_) => format!("{fluid} solid"),
-        None => format!("{fluid} fluid, {walls} wall"),
-    };
     line("particles", particles);
     let legs = match plan.back {
         0 => "one way".to_owned(),
@@ -79,18 +76,19 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         line(name, verdict);
     };
     let fixed = setup::fixed_limits(player.scene());
-    let rules: &[(&str, &str)] = match player.scene().solid {
-        Some(_) => &[(
+    let rules: &[(&str, &str)] = if player.scene().has_distortion() {
+        &[(
             "elastic",
             "0.4 h/sqrt(c_L² + 4 c_p²), half of the stability limit",
-        )],
-        None => &[
+        )]
+    } else {
+        &[
             ("acoustic", "0.4 h/c"),
             (
                 "wall",
                 "0.5 r_wall/sqrt(2 E), a quarter of the stability limit of the contact",
             ),
-        ],
+        ]
     };
     for &(name, rule) in rules {
         let of_name = fixed
@@ -104,13 +102,80 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         Ok(force) => limit("  force limit", force, rule),
         Err(fault) => line("  force limit", format!("unknown: {fault}")),
     }
-    if let Some(solid) = &player.scene().solid {
-        text += &elastic(player.scene(), solid);
+    text += &materials(player.scene());
+    if let Some(fluid) = &player.scene().viscous {
+        text += &viscous(player.scene(), fluid);
     }
     print(&text)
 }
 
-/// What the material is on the lattice of the scene.
+/// How many particles there are of each sort.
+fn particles(scene: &Scene, initial: &InitialState) -> String {
+    let all = initial.fluid.len();
+    if scene.viscous.is_none() {
+        return match scene.solid {
+            Some(_) => format!("{all} solid"),
+            None => format!("{all} fluid, {} wall", initial.wall.len()),
+        };
+    }
+    let ends = initial.parts.iter().skip(1).map(|part| part.first as usize);
+    let parts = initial.parts.iter().zip(ends.chain([all]));
+    let walls: usize = parts
+        .filter(|(part, _)| part.held)
+        .map(|(part, end)| end - part.first as usize)
+        .sum();
+    format!("{} fluid, {walls} wall", all - walls)
+}
+
+/// What the fluid is at the time step of the scene.
+fn viscous(scene: &Scene, fluid: &Viscous) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
+    let material = fluid.material();
+    line("material", "viscous fluid".to_owned());
+    line("  viscosity", format!("{} m²/s", fluid.viscosity));
+    let (tau, dt) = (fluid.relaxation_time(), scene.time_step());
+    line(
+        "  relaxation time",
+        format!("{tau:.4e} s, of which a step takes {:.3}", dt / tau),
+    );
+    let (c_l, c_s) = (material.longitudinal_speed(), material.shear_speed);
+    line(
+        "  waves",
+        format!("{c_l:.1} m/s longitudinal, {c_s:.1} m/s shear"),
+    );
+    if fluid.relaxation == Relaxation::Paper {
+        let x = 6.0 * dt / tau;
+        line(
+            "  in effect",
+            format!(
+                "{:.3} of the viscosity, for the paper's relaxation makes the fluid too thin",
+                x / (x.exp() - 1.0)
+            ),
+        );
+    }
+    text
+}
+
+/// What the bodies are made of, those of one material together, on the lattice of the scene.
+fn materials(scene: &Scene) -> String {
+    let solids = scene.solids();
+    let mut text = String::new();
+    for (n, solid) in solids.iter().enumerate() {
+        if solids[..n].contains(solid) {
+            continue;
+        }
+        let same = (n..solids.len()).filter(|&m| solids[m] == *solid);
+        let numbers: Vec<String> = same.map(|m| m.to_string()).collect();
+        if numbers.len() < solids.len() {
+            text += &format!("{:<22}{}\n", "bodies", numbers.join(", "));
+        }
+        text += &elastic(scene, solid);
+    }
+    text
+}
+
+/// What a material is on the lattice of the scene.
 fn elastic(scene: &Scene, solid: &Solid) -> String {
     let material = solid.material();
     let constants = material.constants(solid.reference_density);
