@@ -106,10 +106,10 @@ impl SceneArguments {
 #[derive(Args, Debug)]
 pub struct ReproduceArguments {
     /// What to reproduce: all, or any of fig1 … fig6, table2 (with Fig. 7), kepler, claims, echo,
-    /// work; plate, column, cantilever, or these three as solids
+    /// work; plate, column, cantilever, couette, cavity, or these five as solids
     #[arg(default_value = "all", value_parser = target_names())]
     pub targets: Vec<String>,
-    /// Coarser spacings: everything within five minutes on two processors
+    /// Coarser spacings: each paper within five minutes on two processors
     #[arg(long)]
     pub quick: bool,
     /// Directory of the report; what an earlier call has done there is kept [default: reproduction,

@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
 
-const CATALOGUE: [&str; 10] = [
+const CATALOGUE: [&str; 12] = [
     "dam-break",
     "dam-break-3d",
     "colliding-drops",

@@ -1,5 +1,6 @@
-//! Published curves of the dam break's leading edge, X(T) with X = x/l, T = t (2 g/l)^(1/2), l the
-//! width of the column. The files are in `data/`; their first lines say where they are from.
+//! Published numbers: curves of the dam break's leading edge, X(T) with X = x/l,
+//! T = t (2 g/l)^(1/2), l the width of the column, and velocities in a lid-driven cavity. The files
+//! are in `data/`; their first lines say where they are from.
 
 /// Points of a curve, T and X.
 pub type Curve = Vec<[f64; 2]>;
@@ -15,6 +16,45 @@ pub fn koshizuka_oka() -> Curve {
 #[must_use]
 pub fn violeau() -> Curve {
     parse(include_str!("../data/violeau-2012.csv"))
+}
+
+/// A middle line of the lid-driven cavity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MiddleLine {
+    /// x = 1/2: places are heights, and the velocity is that along x.
+    Vertical,
+    /// y = 1/2: the velocity is that along y.
+    Horizontal,
+}
+
+/// Places between the walls and velocities of U. Ghia, K. N. Ghia & C. T. Shin, J. Comput. Phys. 48
+/// (1982) 387, at a Reynolds number of 100, 400 or 1000; nothing for others.
+///
+/// At 400 the number for x = 0.9063 is left out: between its neighbours, -0.228 and -0.450, it is
+/// printed as -0.238.
+#[must_use]
+pub fn ghia(line: MiddleLine, reynolds: u32) -> Curve {
+    let word = match line {
+        MiddleLine::Vertical => "u",
+        MiddleLine::Horizontal => "v",
+    };
+    let text = include_str!("../data/ghia-1982.csv");
+    let rows = text.lines().filter(|line| !line.starts_with('#'));
+    let mut rows = rows.map(|row| row.split(',').collect::<Vec<&str>>());
+    let name = reynolds.to_string();
+    let column = rows
+        .next()
+        .and_then(|head| head.iter().position(|column| *column == name));
+    let Some(column) = column else {
+        return Curve::new();
+    };
+    let inner = |row: &Vec<&str>| -> Option<[f64; 2]> {
+        let place: f64 = row.get(1)?.parse().ok()?;
+        let misprint = line == MiddleLine::Horizontal && reynolds == 400 && place == 0.9063;
+        let inside = row.first() == Some(&word) && place > 0.0 && place < 1.0 && !misprint;
+        inside.then_some([place, row.get(column)?.parse().ok()?])
+    };
+    rows.filter_map(|row| inner(&row)).collect()
 }
 
 /// Lines of two numbers; others are a heading.
@@ -50,4 +90,24 @@ pub fn distance(curve: &[[f64; 2]], reference: &[[f64; 2]]) -> (f64, f64) {
     let n = off.len().max(1) as f64;
     let square: f64 = off.iter().map(|d| d * d).sum();
     ((square / n).sqrt(), off.iter().sum::<f64>() / n)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MiddleLine, ghia};
+
+    #[test]
+    fn the_cavity_has_fifteen_places_on_each_line_but_for_a_misprint() {
+        for reynolds in [100, 1000] {
+            assert_eq!(ghia(MiddleLine::Vertical, reynolds).len(), 15);
+            assert_eq!(ghia(MiddleLine::Horizontal, reynolds).len(), 15);
+        }
+        assert_eq!(ghia(MiddleLine::Vertical, 400).len(), 15);
+        assert_eq!(ghia(MiddleLine::Horizontal, 400).len(), 14);
+        assert!(ghia(MiddleLine::Vertical, 200).is_empty());
+        let middle = ghia(MiddleLine::Vertical, 100)
+            .into_iter()
+            .find(|[y, _]| *y == 0.5);
+        assert_eq!(middle, Some([0.5, -0.20581]));
+    }
 }

@@ -69,13 +69,25 @@ targets! {
     /// A thin body against the beam formula.
     Cantilever = "cantilever", "solids: a cantilever against the beam formula",
         targets::beam::cantilever;
+    /// Figs. 8 to 10 of the paper on solids.
+    Couette = "couette", "viscous: Taylor-Couette flow (Figs. 8 to 10 of the second paper)",
+        targets::couette::couette;
+    /// Figs. 11 to 14 of the paper on solids.
+    Cavity = "cavity", "viscous: the lid-driven cavity (Figs. 11 to 14 of the second paper)",
+        targets::cavity::cavity;
 }
 
 /// Names for several targets at once.
 pub const GROUPS: [(&str, &str, &[Target]); 1] = [(
     "solids",
-    "elastic bodies: plate, column and cantilever",
-    &[Target::Plate, Target::Column, Target::Cantilever],
+    "the second paper: plate, column, cantilever, couette and cavity",
+    &[
+        Target::Plate,
+        Target::Column,
+        Target::Cantilever,
+        Target::Couette,
+        Target::Cavity,
+    ],
 )];
 
 impl Target {

@@ -1,13 +1,16 @@
 //! The targets, one function each.
 
 pub mod beam;
+pub mod cavity;
 pub mod claims;
 pub mod column;
 pub mod correction;
+pub mod couette;
 pub mod dam;
 pub mod echo;
 pub mod edge;
 pub mod entropy;
+mod flow;
 pub mod gresho;
 pub mod plate;
 pub mod work;

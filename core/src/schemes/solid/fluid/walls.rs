@@ -106,9 +106,9 @@ impl<const D: usize> PairPass<D> for BesidePass {
         // 1 where one is held and the other is not; the offset of the one that is.
         let mixed = i.held * flows_j + j.held * flows_i;
         let (mut along, mut depth) = (argument.splat(0.0), argument.splat(0.0));
-        for d in 0..D {
+        for (d, x) in x_ij.iter().enumerate() {
             let offset = i.offset[d] + j.offset[d];
-            along = along + x_ij[d] * offset;
+            along = along + *x * offset;
             depth = depth + offset * offset;
         }
         let depth = depth.root();
