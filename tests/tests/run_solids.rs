@@ -1,10 +1,13 @@
-//! Runs of the scenes of elastic bodies.
+//! Runs of the scenes of elastic bodies and of viscous fluids.
 
+use loschmidt_runner::SavedState;
 use loschmidt_runner::scene::Scene;
 use loschmidt_tests::permitted;
 use loschmidt_tests::program::{
     assert_same_way_back, every_way, fastest, player, run, scene, serial,
 };
+
+use std::f64::consts::PI;
 
 /// Golden values, each with a line in the changelog when it changes. Small editions of the scenes: name, what is set, digests at home and after some steps.
 const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 4] = [
@@ -48,6 +51,106 @@ const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 4] = [
         ],
     ),
 ];
+
+/// The same of viscous fluids, which do not return.
+const GOLDEN_FLOWS: [(&str, &[&str], u64, [&str; 2]); 2] = [
+    (
+        "taylor-couette",
+        &[
+            "particle_spacing=0.1",
+            "region.1.shape.annulus.inner=0.85",
+            "region.2.shape.annulus.outer=2.15",
+        ],
+        150,
+        [
+            "10fa1f82daa9b1e2029db47324a36a28",
+            "2e67965ba31b4163105ff6bf718083ef",
+        ],
+    ),
+    (
+        "lid-driven-cavity",
+        &["particle_spacing=0.05", "viscous.start=0.1"],
+        150,
+        [
+            "bb10d5f07ee44532e744c3c86cde2371",
+            "1310c219c421bce52589bc982613f7c8",
+        ],
+    ),
+];
+
+#[test]
+fn golden_digests_of_viscous_flows_on_every_executor() {
+    for (name, set, steps, digests) in GOLDEN_FLOWS {
+        let scene = scene(name, set);
+        for options in every_way() {
+            let mut player = player(scene.clone(), options);
+            let home = player.digest();
+            player.advance(steps).unwrap();
+            let found = [home, player.digest()].map(|digest| digest.to_string());
+            assert_eq!(found, digests, "{name}, {options:?}");
+        }
+    }
+}
+
+#[test]
+fn a_saved_flow_goes_on_with_its_walls() {
+    let (name, set, steps, _) = GOLDEN_FLOWS[0];
+    let scene = scene(name, set);
+    let mut whole = player(scene.clone(), fastest(2));
+    whole.advance(steps).unwrap();
+    let mut first = player(scene.clone(), serial());
+    first.advance(steps / 2).unwrap();
+    let (saved, position, arrow) = (first.save(), first.position(), first.arrow());
+    let mut second = player(scene, fastest(2));
+    second.restore(&saved, position, arrow).unwrap();
+    second.advance(steps - steps / 2).unwrap();
+    assert_eq!(second.digest(), whole.digest());
+}
+
+#[test]
+fn the_flow_between_cylinders_is_the_exact_one_and_its_distortion_turns() {
+    let (name, set, ..) = GOLDEN_FLOWS[0];
+    let mut player = player(scene(name, set), fastest(2));
+    let flowing = player.scene().initial_state().unwrap().parts[1].first as usize;
+    let (dt, mut rate, mut deviation) = (player.scene().time_step(), 0.0, 0.0);
+    let angle = |state: &SavedState| {
+        let words = &state
+            .fields
+            .iter()
+            .find(|f| f.name == "distortion")
+            .unwrap()
+            .words;
+        let mut sums = [0.0; 2];
+        for (n, a) in words.chunks_exact(4).enumerate().take(flowing) {
+            let [x, y, _] = state.position(n);
+            if (x.hypot(y) - 1.5).abs() < 0.1 {
+                sums[0] += (a[2] - a[1]) as f64;
+                sums[1] += (a[0] + a[3]) as f64;
+            }
+        }
+        sums[0].atan2(sums[1])
+    };
+    player.advance((4.0 / dt) as u64).unwrap();
+    let (looks, apart) = (20, (0.05 / dt) as u64);
+    let mut before = angle(&player.save());
+    for _ in 0..looks {
+        player.advance(apart).unwrap();
+        let state = player.save();
+        let now = angle(&state);
+        rate += (now - before + PI).rem_euclid(2.0 * PI) - PI;
+        before = now;
+        // The mean deviation of the speed around the axis, (4/3)(r - 1/r).
+        for n in 0..flowing {
+            let ([x, y, _], [u, v, _]) = (state.position(n), state.velocity(n));
+            let r = x.hypot(y);
+            deviation += (x * v - y * u) / r - 4.0 / 3.0 * (r - 1.0 / r);
+        }
+    }
+    let rate = rate / (f64::from(looks) * apart as f64 * dt);
+    assert!((rate / (-4.0 / 3.0) - 1.0).abs() < 0.04, "{rate}");
+    let deviation = deviation / (f64::from(looks) * flowing as f64);
+    assert!(deviation.abs() < 0.03, "{deviation}");
+}
 
 fn golden(n: usize) -> (Scene, u64, [&'static str; 2]) {
     let (name, set, steps, digests) = GOLDEN[n];
