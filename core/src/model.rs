@@ -68,9 +68,11 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     const ENERGIES: &'static [&'static str];
     /// What is recorded and drawn of a particle besides position and velocity.
     const COLUMNS: &'static [Measure] = &[];
-    /// The field that is 1 where a particle is held in its place: it is a wall, and no part of
-    /// momenta, of the kinetic energy, or of the histogram of speeds.
+    /// The field that is 1 where a particle is held in its place: it is no part of momenta, of the kinetic energy, or of the histogram of speeds.
     const HELD: Option<usize> = None;
+    /// Whether what is held is a wall around a flow, and is drawn and written as one, or a clamp of
+    /// a body. Walls come after the flow in the order of ids.
+    const HELD_IS_WALL: bool = false;
     /// Part of the type, so that whoever promises a way back can ask before promising. Reversing
     /// the velocities is allowed for every model.
     const REVERSIBILITY: Reversibility = if A::EXACT {
@@ -208,6 +210,13 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     /// A particle without an energy.
     fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault>;
 
+    /// How many particles have too few neighbours for what the model asks of them, of a system that
+    /// was refreshed: parts that have torn off.
+    fn lone_particles(&self, system: &System<'_, A, D>) -> u64 {
+        let _ = system;
+        0
+    }
+
     /// Number `column` of [`Model::COLUMNS`], in its unit, of the particle in this place of a
     /// system that was refreshed.
     fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
@@ -241,6 +250,7 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
     const ENERGIES: &'static [&'static str] = R::Scheme::ENERGIES;
     const COLUMNS: &'static [Measure] = R::Scheme::COLUMNS;
     const HELD: Option<usize> = R::Scheme::HELD;
+    const HELD_IS_WALL: bool = R::Scheme::HELD_IS_WALL;
     const REVERSIBILITY: Reversibility = Reversibility::Dissipative;
 
     fn settings(&self) -> &Settings<D> {
@@ -301,6 +311,9 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
     }
     fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault> {
         self.0.scheme().energies(system)
+    }
+    fn lone_particles(&self, system: &System<'_, A, D>) -> u64 {
+        self.0.scheme().lone_particles(system)
     }
     fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
         self.0.scheme().column(column, particles, place)

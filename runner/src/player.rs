@@ -162,6 +162,16 @@ impl Player {
     pub fn threads(&self) -> usize {
         self.options.threads_at_work()
     }
+    /// How many of the particles are walls of a viscous fluid.
+    #[must_use]
+    pub fn held_walls(&self) -> u64 {
+        if self.scene.viscous.is_none() {
+            return 0;
+        }
+        let first = self.parts.iter().find(|part| part.held);
+        first.map_or(0, |part| self.home.id.len() as u64 - part.first)
+    }
+
     /// The state at home.
     #[must_use]
     pub fn home(&self) -> &SavedState {

@@ -62,9 +62,10 @@ fn walls_are_held_parts_that_know_the_way_to_the_flow_and_how_they_move() {
     let state = scene.initial_state().expect("a state");
     assert!(state.wall.is_empty(), "walls carry what the flow carries");
     let held: Vec<bool> = state.parts.iter().map(|part| part.held).collect();
-    assert_eq!(held, [true, false, true, true]);
+    // The flow has the first ids, wherever it stands in the file.
+    assert_eq!(held, [false, true, true, true]);
     assert!(state.parts.iter().all(|part| part.body == 0));
-    assert_eq!(state.parts[0].motion, Motion::Still);
+    assert_eq!(state.parts[1].motion, Motion::Still);
     assert_eq!(state.parts[2].motion, Motion::Slides([1.0, 0.0, 0.0]));
     let turns = Motion::Turns {
         rate: [0.0, 0.0, 2.0],
@@ -75,7 +76,7 @@ fn walls_are_held_parts_that_know_the_way_to_the_flow_and_how_they_move() {
     for (id, (x, way)) in state.fluid.iter().zip(&state.wall_offset).enumerate() {
         let part = state.parts.iter().rposition(|part| part.first <= id as u64);
         let expected = match part {
-            Some(0) => [0.0, -x[1], 0.0],
+            Some(1) => [0.0, -x[1], 0.0],
             Some(2) => [0.0, 1.0 - x[1], 0.0],
             // Flow, and a wall without flow in reach.
             _ => [0.0; 3],

@@ -104,3 +104,23 @@ fn momentum_stays_to_the_last_bit_and_angular_momentum_up_to_rounding() {
         }
     }
 }
+
+#[test]
+fn particles_that_have_torn_off_are_counted() {
+    let parameters = free_body::<2>(material(ShearEnergy::Dpr));
+    let count = |state: &loschmidt_runner::scene::InitialState| {
+        let model = Solid::<Fixed, 2>::new(parameters.clone()).unwrap();
+        let mut body = body::<Fixed, _, 2>(model, state);
+        let (model, mut system) = body.parts();
+        let seen = Diagnostics::measure(model, &mut system, &Serial).unwrap();
+        seen.lone_particles
+    };
+    let mut state = block([8, 8]);
+    assert_eq!(count(&state), 0, "corners are no lone particles");
+    // One alone, and a row of two, whose neighbours lie on a line.
+    for x in [[20.0, 0.0], [0.0, 20.0], [1.0, 20.0]] {
+        state.fluid.push([x[0] * SPACING, x[1] * SPACING, 0.0]);
+        state.fluid_velocity.push([0.0; 3]);
+    }
+    assert_eq!(count(&state), 3);
+}

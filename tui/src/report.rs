@@ -49,16 +49,30 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
         None => {
             let error = outcome.energy.max_error;
             let kinetic = first.map_or(0.0, |row| row.energy("kinetic"));
-            let of = if kinetic > 0.0 {
+            let work = last.map_or(0.0, |row| -row.energy("drive"));
+            let of = if work > 0.0 {
+                format!(", {:.2e} of the work of the walls", error / work)
+            } else if kinetic > 0.0 {
                 let share = error / kinetic;
                 format!(", {share:.2e} of the kinetic energy at the start")
             } else {
                 String::new()
             };
-            format!("{error:.3e} J{of}; nothing was released")
+            let released = if work > 0.0 {
+                ""
+            } else {
+                "; nothing was released"
+            };
+            format!("{error:.3e} J{of}{released}")
         }
     };
     text += &format!("\n\nlargest energy error    {error}");
+    if outcome.lone_particles > 0 {
+        text += &format!(
+            "\nlone particles          {} with too few neighbours to feel all of the shear",
+            outcome.lone_particles
+        );
+    }
     text += &format!("\ndigest at the start     {}", outcome.digest.initial);
     if let Some(digest) = &outcome.digest.turnaround {
         text += &format!("\ndigest, turnaround      {digest}");

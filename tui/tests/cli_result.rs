@@ -58,6 +58,7 @@ fn assert_documented_keys(result: &Value) {
         "momentum",
         "angular_momentum",
         "entropy",
+        "lone_particles",
         "wall_time_s",
         "ns_per_particle_step",
     ];

@@ -80,6 +80,8 @@ pub struct Diagnostics {
     pub momentum: [f64; 3],
     /// Angular momentum about the origin, kg m²/s.
     pub angular_momentum: [f64; 3],
+    /// See [`Model::lone_particles`].
+    pub lone_particles: u64,
 }
 
 impl Diagnostics {
@@ -144,6 +146,7 @@ impl Diagnostics {
             momentum_quanta,
             angular_momentum_quanta,
             front,
+            lone_particles: model.lone_particles(system),
         })
     }
 }

@@ -23,6 +23,10 @@ pub(super) fn frame<A: Arithmetic, M: Model<A, D>, const D: usize>(
     let scale = model.scale();
     let (lq, sq) = (scale.length_quantum(), scale.speed_quantum());
     let walls = system.walls.position().iter();
+    let held = M::HELD.filter(|_| M::HELD_IS_WALL);
+    let is_held = |&i: &usize| held.is_some_and(|field| view.words(field)[i] != A::Word::ZERO);
+    let (held, places): (Vec<usize>, Vec<usize>) = places.iter().copied().partition(is_held);
+    let walls = walls.chain(held.iter().map(|&i| &position[i]));
     let columns = M::COLUMNS.iter().enumerate();
     let columns = columns.map(|(c, &measure)| FrameColumn {
         measure,
@@ -49,6 +53,13 @@ pub(super) fn points<A: Arithmetic, M: Model<A, D>, const D: usize>(
     executor: &AnyExecutor,
     points: &mut Points,
 ) {
+    if M::HELD_IS_WALL {
+        // Such walls stand among the particles: they are told apart one by one.
+        let mut places: Vec<usize> = (0..system.particles.len()).collect();
+        places.sort_unstable_by_key(|&place| system.particles.id[place]);
+        *points = Points::from(&frame(system, model, &places));
+        return;
+    }
     let scale = model.scale();
     let lq = scale.length_quantum();
     points.resize(D, system.particles.len(), M::COLUMNS);

@@ -418,6 +418,7 @@ impl Run {
         let came_home = self.plan.back > 0 && self.plan.back == self.plan.out;
         let came_back = came_home.then(|| self.player.compare_with_home());
         let last_digest = self.player.digest().to_string();
+        let lone_particles = self.player.measure()?.lone_particles;
         let cost = Cost {
             steps: self.loop_steps,
             loop_s: self.loop_time.as_secs_f64(),
@@ -429,6 +430,7 @@ impl Run {
             self.turnaround_digest.clone(),
             came_back,
             last_digest,
+            lone_particles,
             cost,
         )
         .ok_or(RunError::NoRows)?;

@@ -120,6 +120,9 @@ pub struct Outcome {
     pub angular_momentum: AngularMomentum,
     /// Entropies.
     pub entropy: Entropy,
+    /// Particles of a body or a viscous fluid that have too few neighbours at the end to feel all of
+    /// its shear: what has torn off. Zero for water.
+    pub lone_particles: u64,
     /// Everything, output included, s. Of the last piece of a run that was resumed.
     pub wall_time_s: f64,
     /// Time of the step loop times threads over particles times steps, ns.
@@ -202,6 +205,7 @@ impl Outcome {
         turnaround_digest: Option<String>,
         came_back: Option<Return>,
         last_digest: String,
+        lone_particles: u64,
         cost: Cost,
     ) -> Option<Self> {
         let scene = player.scene();
@@ -212,15 +216,15 @@ impl Outcome {
         // In a one-way run the end takes the place of the turnaround where a value is asked for.
         let turn = rows.iter().rev().find(|row| row.leg == 1)?;
         let two_way = scene.turnaround.is_some();
-        let particles = player.home().id.len() as u64;
+        let (all, held) = (player.home().id.len() as u64, player.held_walls());
         let unit = player.home().scale.speed_quantum() * scene.particle_mass();
         let threads = player.threads();
-        let work = particles as f64 * cost.steps as f64;
+        let work = all as f64 * cost.steps as f64;
         Some(Self {
             scene: scene.name.clone(),
             dimension,
-            particles,
-            wall_particles: player.home().walls as u64,
+            particles: all - held,
+            wall_particles: player.home().walls as u64 + held,
             steps: player.steps_taken(),
             time_step_s: scene.time_step(),
             model: scene.model.word().to_owned(),
@@ -248,6 +252,7 @@ impl Outcome {
                 last: last.entropy,
                 equilibrium_turnaround: turn.equilibrium_entropy_of_energy,
             },
+            lone_particles,
             wall_time_s: cost.wall_s,
             ns_per_particle_step: if work > 0.0 {
                 cost.loop_s * 1e9 * threads as f64 / work

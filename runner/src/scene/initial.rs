@@ -3,7 +3,7 @@
 //! Every fluid region has its own lattice, which starts half a pitch inside the lower corner of the
 //! region's bounds (a spiral: in their middle). Walls continue the lattice of the first fluid
 //! region, and the regions of an elastic body that of the body's first region. Particles are
-//! ordered region after region in file order, and in a region x fastest, then y, then z; that order
+//! ordered region after region in file order, walls last, and in a region x fastest, then y, then z; that order
 //! gives the particles their ids. Where the scene asks for it, the fluid is then moved by the
 //! initial state correction (see [`isc`](crate::isc)), and has its first velocities where it was
 //! moved to.
@@ -242,13 +242,15 @@ impl Scene {
         kind.is_of_the_model() || self.viscous.is_some()
     }
 
-    /// The regions that hold particles, with their numbers in file order.
+    /// The regions that hold particles, with their numbers in file order, walls last.
     fn filled_regions(&self) -> impl Iterator<Item = (usize, &Region)> {
         let walls = self.has_distortion() || self.water.wall_model != WallModel::None;
-        self.regions
-            .iter()
-            .enumerate()
-            .filter(move |(_, region)| walls || region.kind.is_of_the_model())
+        let regions = self.regions.iter().enumerate();
+        // Walls have no ids of their own, or the last ones.
+        let flow = regions
+            .clone()
+            .filter(|(_, region)| region.kind.is_of_the_model());
+        flow.chain(regions.filter(move |(_, region)| walls && !region.kind.is_of_the_model()))
     }
 
     /// The number of nodes in the bounds of all regions: no scene has more particles.

@@ -118,12 +118,9 @@ fn particles(scene: &Scene, initial: &InitialState) -> String {
             None => format!("{all} fluid, {} wall", initial.wall.len()),
         };
     }
-    let ends = initial.parts.iter().skip(1).map(|part| part.first as usize);
-    let parts = initial.parts.iter().zip(ends.chain([all]));
-    let walls: usize = parts
-        .filter(|(part, _)| part.held)
-        .map(|(part, end)| end - part.first as usize)
-        .sum();
+    // Walls come last.
+    let first = initial.parts.iter().find(|part| part.held);
+    let walls = first.map_or(0, |part| all - part.first as usize);
     format!("{} fluid, {walls} wall", all - walls)
 }
 

@@ -201,6 +201,10 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
         Ok(energy::energies(self.bodies.parameters(), system))
     }
 
+    fn lone_particles(&self, system: &System<'_, A, D>) -> u64 {
+        energy::lone_particles(system)
+    }
+
     fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
         energy::column(self.bodies.parameters(), column, particles, place)
     }

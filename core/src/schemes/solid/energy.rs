@@ -7,15 +7,16 @@
 //!
 //! Held particles count: they store energy like others.
 
-use super::fields::{BODY, CLUMPING, DENSITY, DISTORTION, LOG_VOLUME, ONE};
+use super::fields::{BODY, CLUMPING, DENSITY, DISTORTION, HELD, LOG_VOLUME, MOMENTS, ONE};
 use super::material::{Material, ShearEnergy, whole_metric};
-use super::matrix::{Matrix, determinant_of, trace};
+use super::matrix::{Matrix, determinant_of, is_damped, trace};
 use super::parameters::Parameters;
 use crate::exact::ExactSum;
 use crate::model::{MAX_ENERGIES, Measure};
 use crate::number::{Arithmetic, Quantity, sqrt};
 use crate::set::SetView;
 use crate::system::System;
+use crate::values::{Symmetric, Values};
 
 /// Kinds of energy.
 pub(super) const NAMES: &[&str] = &["kinetic", "bulk", "shear", "penalty", "gravitational"];
@@ -183,6 +184,20 @@ pub(super) fn energies<A: Arithmetic, const D: usize>(
     }
     energies[4] = gravitational(p, &set);
     energies
+}
+
+/// Free particles whose H is so near to singular that they feel less shear than they should, or none
+/// (see [`damped_inverse`](super::matrix::damped_inverse)), of a system whose moments are up to date.
+pub(super) fn lone_particles<A: Arithmetic, const D: usize>(system: &System<'_, A, D>) -> u64 {
+    let set = system.particles.view();
+    let (moments, held) = (set.words(MOMENTS), set.words(HELD));
+    let each = moments.len() / set.id.len().max(1);
+    let lone = |place: usize| {
+        let words = &moments[place * each..];
+        let moment = Symmetric::<f64, D>::from_fn(|k| words[k].quanta() / ONE);
+        held[place].whole_quanta() == 0 && is_damped(&moment)
+    };
+    (0..set.id.len()).filter(|place| lone(*place)).count() as u64
 }
 
 fn gravitational<A: Arithmetic, const D: usize>(p: &Parameters<D>, set: &SetView<'_, A, D>) -> f64 {

@@ -109,6 +109,11 @@ pub(super) fn inverse<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
     inverse
 }
 
+/// Whether [`damped_inverse`] is not the inverse of this H.
+pub(super) fn is_damped<const D: usize>(moment: &Symmetric<f64, D>) -> bool {
+    determinant_of(&moment.rows.map(|row| row.map(|x| -x))) < const { least_determinant(D) }
+}
+
 /// What stands for H⁻¹, of the positive matrix p = -H: -adj(p) g(det p), where g(d) is 1/d for
 /// d >= ε and d (3 - 2 d/ε)/ε² below, which goes on smoothly and ends in 0.
 ///

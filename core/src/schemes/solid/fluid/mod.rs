@@ -230,6 +230,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Flow<A, D> {
     const ENERGIES: &'static [&'static str] = energy::NAMES_OF_FLUIDS;
     const COLUMNS: &'static [Measure] = energy::columns_of_fluids(D);
     const HELD: Option<usize> = Some(HELD);
+    const HELD_IS_WALL: bool = true;
     const REVERSIBILITY: Reversibility = Reversibility::UpToRounding;
 
     fn settings(&self) -> &Settings<D> {
@@ -313,6 +314,10 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Flow<A, D> {
             *energy = quanta.sum::<i128>() as f64 * unit;
         }
         Ok(energies)
+    }
+
+    fn lone_particles(&self, system: &System<'_, A, D>) -> u64 {
+        energy::lone_particles(system)
     }
 
     fn column(&self, column: usize, particles: &SetView<'_, A, D>, place: usize) -> f64 {
