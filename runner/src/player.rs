@@ -54,7 +54,7 @@ pub enum PlayerError {
     #[error("floating-point arithmetic does not return to where it came from")]
     FloatingPoint,
     /// Seeking needs the way back, and what a filter took out is gone.
-    #[error("the filter takes noise and energy out of the flow: it cannot be integrated backwards")]
+    #[error("the model takes energy out of the flow for good: it cannot be integrated backwards")]
     Dissipative,
 }
 
@@ -162,6 +162,12 @@ impl Player {
     pub fn threads(&self) -> usize {
         self.options.threads_at_work()
     }
+    /// How many particles there are but for walls.
+    #[must_use]
+    pub fn particles(&self) -> u64 {
+        self.home.id.len() as u64 - self.held_walls()
+    }
+
     /// How many of the particles are walls of a viscous fluid.
     #[must_use]
     pub fn held_walls(&self) -> u64 {

@@ -161,7 +161,7 @@ fn the_player_refuses_to_go_back_and_says_why() {
     assert_eq!(player.seek(19, 5, go_on), Err(PlayerError::Dissipative));
     assert_eq!(
         PlayerError::Dissipative.to_string(),
-        "the filter takes noise and energy out of the flow: it cannot be integrated backwards"
+        "the model takes energy out of the flow for good: it cannot be integrated backwards"
     );
 }
 

@@ -22,7 +22,7 @@ pub fn announce(run: &Run) {
     tell(&format!(
         "{}: {} particles, {} steps, {} on {} thread(s){}",
         player.scene().name,
-        player.home().id.len(),
+        player.particles(),
         run.plan().total(),
         player.options().executor.name(),
         player.threads(),

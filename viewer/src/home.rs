@@ -11,7 +11,7 @@
 use loschmidt_core::model::Measure;
 use loschmidt_runner::Frame;
 use loschmidt_runner::frame::FrameColumn;
-use loschmidt_runner::scene::{Dimension, Scene};
+use loschmidt_runner::scene::{Dimension, RegionKind, Scene};
 
 /// A box along the axes, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,6 +128,7 @@ impl Home {
             });
         let fall = 2.0 * gravity[up].abs() * fluid.size()[up];
         let speed = fall.sqrt().max(2.0 * fastest(frame));
+        let speed = speed.max(fastest_wall(scene, frame));
         Self {
             name: scene.name.clone(),
             dimension,
@@ -195,6 +196,20 @@ fn swing(frame: &Frame, bodies: Box3, span: f64) -> f64 {
 
 fn length(v: &[f64; 3]) -> f64 {
     (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+/// The largest speed of walls, m/s.
+fn fastest_wall(scene: &Scene, frame: &Frame) -> f64 {
+    let walls = scene
+        .regions
+        .iter()
+        .filter(|region| region.kind == RegionKind::Wall);
+    let speeds = walls.filter_map(|region| {
+        let velocity = region.velocity?;
+        let at = |x: &[f64; 3]| length(&velocity.at(*x));
+        frame.wall_position.iter().map(at).reduce(f64::max)
+    });
+    speeds.fold(0.0, f64::max)
 }
 
 /// The largest speed, m/s.

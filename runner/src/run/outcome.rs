@@ -223,7 +223,7 @@ impl Outcome {
         Some(Self {
             scene: scene.name.clone(),
             dimension,
-            particles: all - held,
+            particles: player.particles(),
             wall_particles: player.home().walls as u64 + held,
             steps: player.steps_taken(),
             time_step_s: scene.time_step(),

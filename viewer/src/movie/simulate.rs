@@ -231,7 +231,7 @@ impl<'a> Export<'a> {
 
     /// What stands under the title: at the end, whether the first run is at home.
     fn caption(&mut self, n: usize) -> String {
-        let particles = self.strands[0].player.home().id.len();
+        let particles = self.strands[0].player.particles() as usize;
         if self.comes_home && n + 1 == self.schedule.pictures {
             let exact = self.strands[0].player.compare_with_home().is_exact();
             return if exact {

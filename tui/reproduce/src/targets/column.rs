@@ -122,7 +122,7 @@ pub fn column(lab: &mut Lab<'_>) -> Result<Section, LabError> {
          rubber column of 1 m by 1 m by 6 m on a body-centred lattice, its lowest layer held. The \
          twist is that of the uppermost cell; the paper's penalty of ten times the bulk speed.",
     );
-    let sizes: &[(u32, f64)] = lab.size(&[(4, 0.1)], &[(4, 0.05), (6, 0.05), (8, 0.1)]);
+    let sizes: &[(u32, f64)] = lab.size(&[(4, 0.1)], &[(4, 0.05), (6, 0.05), (8, 0.1), (12, 0.1)]);
     let mut rows = Vec::new();
     let mut chart = Chart {
         title: "Twist of the top".to_owned(),
