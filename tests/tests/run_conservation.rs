@@ -80,7 +80,7 @@ fn a_rotating_drop_keeps_its_angular_momentum() {
 fn fall(set: &[&str]) -> (f64, Vec<Row>) {
     let mut all = vec!["particle_spacing=0.04", "turnaround=", "end=1.0"];
     all.extend(set);
-    let (outcome, rows) = run(scene("dam-break", &all), serial());
+    let (outcome, rows) = run(scene("dam-break", &all), fastest(2));
     let error = outcome.energy.max_error_over_released.expect("a fall");
     println!("{set:?}: energy error over released {error:e}");
     (error, rows)

@@ -4,7 +4,9 @@ use loschmidt_core::{Fault, FaultKind};
 use loschmidt_runner::output::{RunDirectory, RunStatus, Snapshot};
 use loschmidt_runner::scene::Scene;
 use loschmidt_runner::{Options, Run, RunError};
-use loschmidt_tests::program::{every_way, player, run, scene, scene_of, serial, threads, try_run};
+use loschmidt_tests::program::{
+    every_way, fastest, player, run, scene, scene_of, serial, threads, try_run,
+};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use tempfile::TempDir;
@@ -127,7 +129,7 @@ fn the_standard_scheme_breaks_down_where_the_symplectic_one_goes_on() {
         "end=1.0",
         "model=standard",
     ];
-    let (result, rows) = try_run(scene("dam-break", &set), threads(2));
+    let (result, rows) = try_run(scene("dam-break", &set), fastest(2));
     let (fault, time, _) = fault_of(result);
     let last = rows.last().expect("rows");
     println!(
@@ -143,9 +145,9 @@ fn the_standard_scheme_breaks_down_where_the_symplectic_one_goes_on() {
         "end=1.0",
         "model=standard",
     ];
-    let (fault, time, _) = fault_of(try_run(scene("dam-break", &set), threads(2)).0);
+    let (fault, time, _) = fault_of(try_run(scene("dam-break", &set), fastest(2)).0);
     println!("spacing 0.04 m: {fault}, t = {time} s");
     assert!(time < 1.0);
-    let (outcome, _) = run(scene("dam-break", &set[..3]), threads(2));
+    let (outcome, _) = run(scene("dam-break", &set[..3]), fastest(2));
     assert_eq!(outcome.steps, 5_000);
 }
