@@ -39,7 +39,7 @@ pub const EXCHANGED: usize = 16;
 /// Impulses of the present kick in two parts, as [`SplitForce`](super::passes::SplitForce) has them.
 /// Fluids alone.
 pub const FORCES: usize = 17;
-/// Sums over the flow next to a wall, as [`Beside`](super::mirror::Beside) has them. Fluids alone.
+/// Sums over the flow next to a wall, as [`Beside`](super::Beside) has them. Fluids alone.
 pub const BESIDE: usize = 18;
 
 /// Distortions and logarithms count 2^-48: they are kept below 8.

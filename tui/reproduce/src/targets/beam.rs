@@ -3,6 +3,7 @@
 
 use crate::lab::{Lab, LabError, scene};
 use crate::section::Section;
+use std::f64::consts::PI;
 
 /// Length and thickness, m.
 const LENGTH: f64 = 0.2;
@@ -129,7 +130,8 @@ pub fn cantilever(lab: &mut Lab<'_>) -> Result<Section, LabError> {
 const STRAIN: f64 = 5e-3;
 
 /// Young's modulus and Poisson's ratio of a bar that hangs from its clamp, over those of its
-/// material: means over a period of its longest wave, whose odd overtones vanish in them.
+/// material: means over four periods of its longest wave, with the weights of Hann's window, in which
+/// waves vanish whatever their exact period.
 ///
 /// In plane strain u(x) = (ρ g/E')(L x - x²/2), E' = E/(1 - ν²), and the bar becomes thinner by
 /// ν' = ν/(1 - ν) times its strain.
@@ -155,9 +157,9 @@ fn hang(lab: &mut Lab<'_>, through: u32, energy: &str, poisson: f64) -> Result<[
     let spacing = player.scene().particle_spacing;
     let near = |x: f64, at: f64| (x - at).abs() < 0.05 * LENGTH;
     let period = 4.0 * LENGTH * (DENSITY / plane).sqrt();
-    let steps = (period / player.scene().time_step()).round() as u64;
-    let (looks, mut taken) = (200, 0);
-    let mut sums = [0.0; 3];
+    let steps = (4.0 * period / player.scene().time_step()).round() as u64;
+    let (looks, mut taken) = (400, 0);
+    let (mut weights, mut sums) = (0.0, [0.0; 3]);
     let name = format!("hanging bar of {through} rows, {energy}");
     for look in 1..=looks {
         let next = steps * look / looks;
@@ -174,12 +176,17 @@ fn hang(lab: &mut Lab<'_>, through: u32, energy: &str, poisson: f64) -> Result<[
         };
         let edge = 0.5 * (THICKNESS - spacing);
         let middle = 0.5 * LENGTH;
-        sums[0] +=
+        let longer =
             mean(0, &|x| near(x[0], 0.75 * LENGTH)) - mean(0, &|x| near(x[0], 0.25 * LENGTH));
-        sums[1] += mean(1, &|x| near(x[0], middle) && x[1] > edge - 0.1 * spacing);
-        sums[2] += mean(1, &|x| near(x[0], middle) && x[1] < 0.1 * spacing - edge);
+        let up = mean(1, &|x| near(x[0], middle) && x[1] > edge - 0.1 * spacing);
+        let down = mean(1, &|x| near(x[0], middle) && x[1] < 0.1 * spacing - edge);
+        let weight = (PI * (look as f64 - 0.5) / looks as f64).sin().powi(2);
+        weights += weight;
+        for (sum, x) in sums.iter_mut().zip([longer, up, down]) {
+            *sum += weight * x;
+        }
     }
-    let [longer, up, down] = sums.map(|sum| sum / looks as f64);
+    let [longer, up, down] = sums.map(|sum| sum / weights);
     // Between a quarter and three quarters of the length the strain is on average that halfway.
     let strain = longer / (0.5 * LENGTH);
     let found = DENSITY * gravity * 0.5 * LENGTH / strain;

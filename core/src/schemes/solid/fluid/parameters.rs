@@ -10,7 +10,7 @@ pub enum Relaxation {
     /// One update whose steady viscosity is that of the parameters for every time step.
     Exact,
     /// The paper's (52d): one step of Runge and Kutta's fourth order. As printed, with the force
-    /// taken of what has relaxed, it makes the fluid too thin: see [`relaxation`](super::relaxation).
+    /// taken of what has relaxed, it makes the fluid too thin: see [`Law`](super::Law).
     Paper,
 }
 

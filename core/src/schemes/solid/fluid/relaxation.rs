@@ -77,18 +77,6 @@ impl Law {
         }
     }
 
-    /// q, the factor of a small strain.
-    #[must_use]
-    pub fn factor(self) -> f64 {
-        match self {
-            Self::Exact { share } => 1.0 - 2.0 * share,
-            Self::Paper { step } => {
-                let x = 2.0 * step;
-                1.0 - x * (1.0 - x / 2.0 * (1.0 - x / 3.0 * (1.0 - x / 4.0)))
-            }
-        }
-    }
-
     /// A after it.
     #[inline(always)]
     #[must_use]
