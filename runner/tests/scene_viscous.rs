@@ -96,7 +96,11 @@ fn walls_are_held_parts_that_know_the_way_to_the_flow_and_how_they_move() {
 fn a_printed_viscous_scene_reads_back_as_the_same_scene() {
     for overrides in [
         &[][..],
-        &["viscous.relaxation=paper", "viscous.wall_velocity=plain"],
+        &[
+            "viscous.relaxation=paper",
+            "viscous.wall_velocity=plain",
+            "cfl=0.05",
+        ],
         &["viscous.start=0.5", "viscous.penalty=0.1"],
     ] {
         let scene = read(BOX, overrides);

@@ -63,8 +63,8 @@ const GOLDEN_FLOWS: [(&str, &[&str], u64, [&str; 2]); 2] = [
         ],
         150,
         [
-            "10fa1f82daa9b1e2029db47324a36a28",
-            "2e67965ba31b4163105ff6bf718083ef",
+            "983dda1ad40af1ee9d0d5716d4887e88",
+            "ed064e485f5c3aa7bb0d05f6e8da7b8c",
         ],
     ),
     (
@@ -72,8 +72,8 @@ const GOLDEN_FLOWS: [(&str, &[&str], u64, [&str; 2]); 2] = [
         &["particle_spacing=0.05", "viscous.start=0.1"],
         150,
         [
-            "bb10d5f07ee44532e744c3c86cde2371",
-            "1310c219c421bce52589bc982613f7c8",
+            "9333f5c9a99896076ece8fc93d4943fd",
+            "c780e1eb45984685c4a639071a1d82b5",
         ],
     ),
 ];

@@ -144,6 +144,36 @@ fn the_viscosity_in_constant_shear_is_that_of_the_parameters_at_every_time_step(
 }
 
 #[test]
+fn in_space_the_viscosity_is_the_same_however_the_fluid_is_strained() {
+    // Stretched along one axis or squeezed: of what is of second order in the strain nothing is left.
+    let (mut parameters, _) = boxed::<3>([7; 3], Relaxation::Exact, WallVelocity::Plain);
+    let material = parameters.bodies.materials[0];
+    let dt = parameters.bodies.time_step;
+    parameters.relaxation_time = dt / 10.0;
+    let law = Law::of(&parameters);
+    let viscosity = material.shear_speed.powi(2) * parameters.relaxation_time / 6.0;
+    let rate = 0.005 / dt;
+    for axial in [[1.0, 1.0, -2.0], [-1.0, -1.0, 2.0], [1.0, -1.0, 0.0]] {
+        let mut a = [[0.0; 3]; 3];
+        for (i, row) in a.iter_mut().enumerate() {
+            row[i] = 1.0;
+        }
+        for _ in 0..200 {
+            for (i, row) in a.iter_mut().enumerate() {
+                row[i] *= (-rate * dt * axial[i]).exp();
+            }
+            a = law.relaxed(&a);
+        }
+        let stress = material.shear_stress(&whole_metric(&a, 0.0));
+        let mean = (stress[0][0] + stress[1][1] + stress[2][2]) / 3.0;
+        for i in 0..3 {
+            let found = -(stress[i][i] - mean) / (2.0 * viscosity * rate);
+            assert!((found - axial[i]).abs() < 0.02, "{found} for {axial:?}");
+        }
+    }
+}
+
+#[test]
 fn the_papers_relaxation_makes_the_fluid_too_thin() {
     // x/(e^x - 1) of x = 6 dt/tau, but for the error of the fourth order.
     for (share, expected) in [(0.01, 0.970), (0.075, 0.792), (0.1, 0.732), (0.2, 0.561)] {
@@ -242,6 +272,28 @@ fn what_walls_put_in_is_what_the_fluid_keeps_and_heats() {
             "{error:e}, {relaxation:?}, {wall_velocity:?}"
         );
     }
+}
+
+#[test]
+fn walls_at_rest_take_little_of_what_a_vortex_gives_to_the_fluid() {
+    let (mut parameters, mut state) =
+        stirred::<2>([22, 22], Relaxation::Exact, WallVelocity::Mirrored);
+    for part in &mut parameters.bodies.parts {
+        part.motion = Motion::Still;
+    }
+    for (v, way) in state.fluid_velocity.iter_mut().zip(&state.wall_offset) {
+        if *way == [0.0; 3] {
+            v[0] += 0.5;
+        }
+    }
+    let mut plain = initialised(parameters, &state);
+    let first = after(&mut plain, 0).energies;
+    let last = after(&mut plain, 300).energies;
+    let (heat, drive) = (last.get("heat"), last.get("drive"));
+    assert!(heat > 0.1 * first.get("kinetic"), "{last:?}");
+    assert!(drive.abs() < 0.3 * heat, "heat {heat}, drive {drive}");
+    let error = (last.total() - first.total()) / first.get("kinetic");
+    assert!(error.abs() < 2e-3, "{error:e}");
 }
 
 #[test]

@@ -95,7 +95,8 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
     for name in CATALOGUE {
         let text = place.call(&["check", name]).with_code(0).stdout;
         let solid = text.contains(" solid\n");
-        let limit = if solid {
+        let viscous = text.contains(" viscous fluid\n");
+        let limit = if solid || viscous {
             "elastic limit"
         } else {
             "acoustic limit"
@@ -109,6 +110,7 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
         assert!(!text.contains("EXCEEDED"), "{text}");
         assert!(!text.contains("SPOILT"), "{text}");
         assert_eq!(solid, text.contains("Young's modulus"), "{text}");
+        assert_eq!(viscous, text.contains("relaxation time"), "{text}");
     }
     let paper = ["check", "beryllium-plate", "--preset", "paper"];
     let text = place.call(&paper).with_code(0).stdout;

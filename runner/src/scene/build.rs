@@ -11,9 +11,10 @@ use super::source::is_name_character;
 use super::spec::{SceneSpec, WrittenValue};
 use super::types::{Scene, TOP, whole_steps};
 use super::values::{as_table, elements};
+use super::viscous::Relaxation;
 use super::wcsph::WallModel;
 use super::words::{Dimension, RegionKind};
-use loschmidt_core::schemes::solid::{MAX_BODIES, MAX_PARTS};
+use loschmidt_core::schemes::solid::{MAX_BODIES, MAX_PARTS, MOST_OF_PAPER};
 
 /// The most steps of a leg; every count below it is an exact f64.
 const MOST_STEPS: u64 = 1 << 48;
@@ -31,6 +32,7 @@ pub(super) fn build(spec: &SceneSpec) -> Result<Scene, SceneError> {
     times(&mut builder, top, &scene);
     exclusions(&mut builder, top, scene.model);
     bodies(&mut builder, top, &mut scene);
+    relaxation(&mut builder, top, &scene);
     builder.finish(scene)
 }
 
@@ -130,7 +132,7 @@ fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
         ];
         (region.lattice, region.material) = (lattice, material);
         for (written, what, differs) in differs {
-            if let Some(written) = written.filter(|_| differs) {
+            if let Some(written) = written.filter(|_| differs && first != number) {
                 builder.conflict(
                     format!("the regions of a body have one {what}, that of its first region"),
                     written.node.span,
@@ -138,6 +140,31 @@ fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
                 );
             }
         }
+    }
+}
+
+/// The paper's relaxation grows where its step is too long.
+fn relaxation<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
+    let Some(viscous) = scene.viscous else {
+        return;
+    };
+    let table = top.table.get("viscous");
+    let written = table
+        .and_then(|entry| as_table(&entry.node))
+        .and_then(|table| table.get("relaxation"));
+    let (dt, most) = (scene.time_step(), MOST_OF_PAPER * viscous.relaxation_time());
+    if let Some(entry) = written
+        && viscous.relaxation == Relaxation::Paper
+        && dt >= most
+    {
+        builder.out_of_range(
+            format!("the paper's relaxation grows at this time step: {dt:.4e} s"),
+            entry.node.span,
+            format!(
+                "allowed: below {most:.4e} s, 0.464 of the relaxation time: choose a smaller `cfl`, \
+                 or write `relaxation = \"exact\"`"
+            ),
+        );
     }
 }
 

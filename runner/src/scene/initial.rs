@@ -15,6 +15,7 @@ use super::lattice::Lattice;
 use super::region::Region;
 use super::shape::Shape;
 use super::types::Scene;
+use super::viscous::WallVelocity;
 use super::wcsph::{DensityCorrection, WallModel};
 use super::words::{Dimension, LatticeKind, RegionKind};
 use crate::isc;
@@ -149,8 +150,11 @@ impl Scene {
             return Err(no_fluid());
         }
         self.refuse_overlap(&state, &placed)?;
-        if self.viscous.is_some() {
-            state.wall_offset = self.wall_offsets(&state);
+        if let Some(viscous) = self.viscous {
+            state.wall_offset = match viscous.wall_velocity {
+                WallVelocity::Mirrored => self.wall_offsets(&state),
+                WallVelocity::Plain => Vec::new(),
+            };
         }
         if self.water.density_correction == DensityCorrection::Isc {
             self.correct(&mut state)?;

@@ -8,6 +8,7 @@
 use super::filling::holds;
 use super::geometry::Vector3;
 use super::initial::InitialState;
+use super::region::Region;
 use super::shape::Shape;
 use super::types::Scene;
 use super::words::RegionKind;
@@ -15,13 +16,13 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Steps of a ray for each spacing, before it is halved.
-const STEPS: f64 = 8.0;
+const STEPS: f64 = 4.0;
 
 /// Halvings of a step.
 const HALVINGS: usize = 40;
 
 /// First directions in the plane, and in space.
-const DIRECTIONS: [usize; 2] = [48, 200];
+const DIRECTIONS: [usize; 2] = [48, 120];
 
 /// The flow, and how far one looks for it.
 struct Flow<'a> {
@@ -33,17 +34,17 @@ struct Flow<'a> {
 }
 
 impl Scene {
-    /// The ways from wall particles to the nearest point of the surface of the fluid, m; none for
-    /// particles that flow, and for those of walls that have no fluid in reach.
+    /// The ways from wall particles to the nearest point of the surface of the fluid, or of what a
+    /// layer is wrapped around, m; none for particles that flow, and for those of walls that have
+    /// neither in reach.
     pub(super) fn wall_offsets(&self, state: &InitialState) -> Vec<Vector3> {
-        let fluid = |region: &&super::region::Region| region.kind == RegionKind::Fluid;
+        let fluid = |region: &&Region| region.kind == RegionKind::Fluid;
+        let fluids = self.regions.iter().filter(fluid);
+        let walls = self.regions.iter().filter(|region| !fluid(region));
+        // Fluid may come to where there is none at first: a layer says where its walls end.
+        let layers = walls.flat_map(|region| wrapped(&region.shape));
         let flow = Flow {
-            shapes: self
-                .regions
-                .iter()
-                .filter(fluid)
-                .map(|r| &r.shape)
-                .collect(),
+            shapes: fluids.map(|region| &region.shape).chain(layers).collect(),
             axes: self.dimension.axes(),
             spacing: self.particle_spacing,
             reach: (self.support + 1.0) * self.particle_spacing,
@@ -64,6 +65,17 @@ impl Scene {
                 }
             })
             .collect()
+    }
+}
+
+/// The shapes that the layers of a shape are wrapped around.
+fn wrapped(shape: &Shape) -> Vec<&Shape> {
+    match shape {
+        Shape::Layer { around, .. } => vec![around],
+        Shape::Union(shapes) | Shape::Difference(shapes) | Shape::Intersection(shapes) => {
+            shapes.iter().flat_map(wrapped).collect()
+        }
+        _ => Vec::new(),
     }
 }
 
@@ -111,7 +123,7 @@ impl Flow<'_> {
             return [0.0; 3];
         }
         let mut angle = 2.0 * PI / DIRECTIONS[0] as f64;
-        while angle > 1e-9 {
+        while angle > 1e-8 {
             let turned = self.turned(best, angle);
             let shorter = turned
                 .into_iter()

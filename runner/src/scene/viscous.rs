@@ -34,8 +34,8 @@ keys! {
             "how the distortion relaxes: with the viscosity of `viscosity` for every time step, or \
              as the paper has it, which makes the fluid too thin";
         wall_velocity: WallVelocity = Word(WallVelocity::Mirrored.word()), Any,
-            "velocity of walls in velocity gradients: the flow's, continued through their surface, \
-             or their own";
+            "velocity of walls in velocity gradients: the flow's, continued through the surface that \
+             they have with the fluid at the start or inside a layer, or their own";
         start: f64 = Number(0.0), AtLeast(0.0),
             "until when moving walls are accelerated, smoothly", "s";
     }

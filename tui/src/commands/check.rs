@@ -32,7 +32,7 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     let mut player = Player::new(scene, initial, options)
         .map_err(|error| Failure::new(USAGE, format!("error: {error}")))?;
     let limits = setup::force_limit(&mut player);
-    let pace = pace(&mut player);
+    let pace = pace(&mut player, plan.total());
 
     let mut text = String::new();
     let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
@@ -130,7 +130,7 @@ fn viscous(scene: &Scene, fluid: &Viscous) -> String {
     let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
     let material = fluid.material();
     line("material", "viscous fluid".to_owned());
-    line("  viscosity", format!("{} m²/s", fluid.viscosity));
+    line("  viscosity", format!("{:.4e} m²/s", fluid.viscosity));
     let (tau, dt) = (fluid.relaxation_time(), scene.time_step());
     line(
         "  relaxation time",
@@ -247,13 +247,14 @@ const WANTED: f64 = 0.03;
 const SPOILT: f64 = 0.05;
 
 /// Seconds per step, tried from the initial state; the first step is left out, for it warms up.
-fn pace(player: &mut Player) -> Result<f64, Fault> {
+fn pace(player: &mut Player, most: u64) -> Result<f64, Fault> {
     player.advance(1)?;
     let began = Instant::now();
     let mut steps = 0;
-    while steps < 1 || (began.elapsed() < TRIAL && steps < 1000) {
+    let most = most.saturating_sub(1).min(1000);
+    while steps < 1 || (began.elapsed() < TRIAL && steps < most) {
         player.advance(1)?;
         steps += 1;
     }
-    Ok(began.elapsed().as_secs_f64() / f64::from(steps))
+    Ok(began.elapsed().as_secs_f64() / steps as f64)
 }

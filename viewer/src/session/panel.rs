@@ -8,8 +8,8 @@ use loschmidt_runner::scene::Scene;
 /// The panel of parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Panel {
-    /// Whether the scene is one of solids, whose speed of sound has another key.
-    solid: bool,
+    /// The key of the speed of sound, which depends on the model.
+    sound: &'static str,
     /// Values as they are typed, in the order of [`Panel::FIELDS`].
     pub values: [String; 4],
     /// The values before.
@@ -34,29 +34,34 @@ impl Panel {
     const INTEGRATORS: [&'static str; 3] = ["stormer-verlet", "pefrl", "suzuki"];
     /// The field of the integrator, which is chosen and not typed.
     const INTEGRATOR: usize = 2;
-    /// The field of the speed of sound, whose key depends on the model.
+    /// The field of the speed of sound; its key in a scene of water.
     const SOUND: usize = 1;
-    /// Its key in a scene of solids.
-    const SOUND_OF_SOLIDS: &'static str = "solid.bulk_speed";
+    /// Its keys in scenes of solids and of viscous fluids.
+    const SOUND_OF_DISTORTION: [&'static str; 2] = ["solid.bulk_speed", "viscous.bulk_speed"];
     /// The field of the threads, which are no key of a scene.
     const THREADS: usize = 3;
 
     /// The panel of a scene that is open.
     #[must_use]
     pub fn new(scene: &Scene, options: &Options) -> Self {
+        let solid = scene.solid.map(|solid| solid.bulk_speed);
+        let viscous = scene.viscous.map(|viscous| viscous.bulk_speed);
+        let [of_solids, of_viscous] = Self::SOUND_OF_DISTORTION;
+        let (sound, speed) = match (solid, viscous) {
+            (Some(speed), _) => (of_solids, speed),
+            (None, Some(speed)) => (of_viscous, speed),
+            (None, None) => (Self::FIELDS[Self::SOUND].2, scene.sound_speed()),
+        };
         let values = [
             scene.particle_spacing.to_string(),
-            scene
-                .solid
-                .map_or(scene.sound_speed(), |solid| solid.bulk_speed)
-                .to_string(),
+            speed.to_string(),
             scene.integrator.word().to_owned(),
             options.threads.to_string(),
         ];
         Self {
             before: values.clone(),
             values,
-            solid: scene.solid.is_some(),
+            sound,
             field: 0,
             fresh: true,
             problem: None,
@@ -127,10 +132,7 @@ impl Panel {
         let mut set = open.set.clone();
         let mut changed = false;
         for (n, (_, _, key)) in Self::FIELDS.iter().enumerate() {
-            let key = match (n == Self::SOUND, self.solid) {
-                (true, true) => Self::SOUND_OF_SOLIDS,
-                _ => *key,
-            };
+            let key = if n == Self::SOUND { self.sound } else { *key };
             if n != Self::THREADS && self.values[n] != self.before[n] {
                 set.retain(|old| !old.starts_with(&format!("{key}=")));
                 set.push(format!("{key}={}", self.values[n]));

@@ -54,7 +54,7 @@ pub enum Overlay {
     /// What can be opened, and which is chosen.
     Scenes(List),
     /// The panel of parameters.
-    Parameters(Panel),
+    Parameters(Box<Panel>),
     /// Nothing can be shown, and why.
     Error(String),
 }

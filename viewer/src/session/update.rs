@@ -261,7 +261,7 @@ fn on_action(session: &mut Session, action: Action) -> Vec<Effect> {
         Action::Anew => vec![Effect::Open(session.request.anew())],
         Action::Parameters => {
             let opened = &stage.opened;
-            let panel = Panel::new(&opened.scene, &opened.options);
+            let panel = Box::new(Panel::new(&opened.scene, &opened.options));
             session.overlay = Overlay::Parameters(panel);
             Vec::new()
         }

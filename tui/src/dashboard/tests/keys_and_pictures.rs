@@ -155,9 +155,10 @@ fn the_panel_starts_the_scene_anew_with_its_values() {
     bench.key(Key::Char('0'));
     // No threads at all is refused, and the panel stays.
     assert_eq!(bench.key(Key::Enter), []);
-    let Overlay::Parameters(Panel { problem, .. }) = &bench.state.session.overlay else {
+    let Overlay::Parameters(panel) = &bench.state.session.overlay else {
         panic!("{:?}", bench.state.session.overlay);
     };
+    let Panel { problem, .. } = &**panel;
     assert!(problem.as_ref().is_some_and(|p| p.contains("1 to 1024")));
     bench.key(Key::Backspace);
     bench.key(Key::Char('2'));

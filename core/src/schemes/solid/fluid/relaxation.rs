@@ -7,7 +7,8 @@
 //! ν_eff/ν = x q/(1 - q),  ν = c_s² τ/6                                                   (65)
 //!
 //! - [`Relaxation::Exact`]: A ← A (1 - κ dev(AᵀA)), κ = x/(2 (1 + x)). Then q = 1/(1 + x) but for
-//!   terms of order e², and ν_eff = ν for every time step.
+//!   terms of order e², and ν_eff = ν for every time step. In space, where such terms do not vanish
+//!   in every flow, the bracket is the series of (AᵀA)^(-κ) up to the third power.
 //! - [`Relaxation::Paper`]: Runge and Kutta's fourth order with the nodes (0, ½, ½, 1), (52d). Then
 //!   q is nearly exp(-x), and ν_eff = 0.73 ν at dt = 0.1 τ, the paper's own.
 //!
@@ -29,7 +30,7 @@
 
 use super::super::fields::{BODY, DISTORTION, EXCHANGED, GRADIENT, INVERSE, ONE, ONE_ENERGY};
 use super::super::material::{Material, deviator};
-use super::super::matrix::{Matrix, determinant_of, metric, product};
+use super::super::matrix::{Matrix, determinant_of, identity, metric, product};
 use super::super::parameters::{MAX_BODIES, material_of};
 use super::super::updates::{Flow, cayley, displacement};
 use super::parameters::{FluidParameters, Relaxation};
@@ -82,7 +83,8 @@ impl Law {
     #[must_use]
     pub fn relaxed<const D: usize>(self, a: &Matrix<D>) -> Matrix<D> {
         let mut relaxed = match self {
-            Self::Exact { share } => plus(a, &slope(a, share), 1.0),
+            Self::Exact { share } if D == 2 => plus(a, &slope(a, share), 1.0),
+            Self::Exact { share } => product(a, &power(a, share)),
             Self::Paper { step } => {
                 let k1 = slope(a, step);
                 let k2 = slope(&plus(a, &k1, 0.5), step);
@@ -100,6 +102,22 @@ impl Law {
         }
         relaxed
     }
+}
+
+/// (AᵀA)^(-κ) by its series in E = AᵀA - 1, up to the third power.
+#[inline(always)]
+fn power<const D: usize>(a: &Matrix<D>, share: f64) -> Matrix<D> {
+    let mut e = metric(a);
+    for (i, row) in e.iter_mut().enumerate() {
+        row[i] -= 1.0;
+    }
+    // 1 - κ E (1 - (κ + 1)/2 E (1 - (κ + 2)/3 E)).
+    let mut sum = identity::<D>();
+    for n in [3.0, 2.0, 1.0] {
+        let factor = -(share + (n - 1.0)) / n;
+        sum = plus(&identity::<D>(), &product(&e, &sum), factor);
+    }
+    sum
 }
 
 /// -c A dev(AᵀA).
