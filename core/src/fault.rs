@@ -14,6 +14,18 @@ pub enum FaultKind {
     /// A distortion or the logarithm of a volume reached 2^51 quanta.
     #[error("its distortion left the number range")]
     DistortionRange,
+    /// An entropy reached 2^51 quanta.
+    #[error("its entropy left the number range")]
+    EntropyRange,
+    /// The fraction of the normal component is not above 0 and at most 1.
+    #[error(
+        "its normal component is no fraction of it: the entropy is too far from that of the \
+             reference temperature"
+    )]
+    NormalFraction,
+    /// The two copies of the counterflow are farther apart than the bound.
+    #[error("the two copies of its counterflow are farther apart than the scene allows")]
+    CopiesApart,
     /// One pair term (or the pull of gravity in one kick) reached 2^51 quanta or was not a number.
     #[error("one of its force or density terms left the number range")]
     TermRange,

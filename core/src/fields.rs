@@ -135,6 +135,15 @@ impl Field {
         }
     }
 
+    /// The same field, which changes sign with time.
+    #[must_use]
+    pub const fn odd(self) -> Self {
+        Self {
+            parity: TimeParity::Odd,
+            ..self
+        }
+    }
+
     /// The same field, with this role on walls too.
     #[must_use]
     pub const fn on_walls(self, walls: Role) -> Self {

@@ -24,6 +24,9 @@ pub enum Stage {
     Drift(f64),
     /// What else a particle carries advances with the motion.
     Lift(f64),
+    /// Where a part of the state is held twice: velocities and the second copy advance by what
+    /// follows from the first one. A kick of such a model is the same from the second to the first.
+    Counterkick(f64),
     /// Many states become one.
     Relax,
 }

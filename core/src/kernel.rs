@@ -18,7 +18,7 @@
 //!
 //! Only `+ - * /` occur, in one written order; no power, no exponential.
 
-use crate::number::Lanes;
+use crate::number::{Lanes, sqrt};
 use core::f64::consts::PI;
 
 /// The kernel for a support radius, with the unit of r chosen by the caller.
@@ -107,5 +107,31 @@ impl WendlandC2 {
     #[inline(always)]
     fn t<L: Lanes>(q: L) -> L {
         (q.splat(1.0) - q).positive_part()
+    }
+}
+
+/// The kernel, and the square of its reach in length quanta.
+#[derive(Clone, Copy, Debug)]
+pub struct Reach {
+    pub(crate) kernel: WendlandC2,
+    pub(crate) squared: f64,
+}
+
+impl Reach {
+    /// The kernel of this support radius (m), its argument in quanta of so many metres.
+    pub(crate) fn new(dimension: usize, support_radius: f64, quantum: f64) -> Self {
+        let reach = support_radius / quantum;
+        Self {
+            kernel: WendlandC2::new(dimension, support_radius, quantum),
+            squared: reach * reach,
+        }
+    }
+    /// W(0), which W does not exceed.
+    pub(crate) fn largest_value(&self) -> f64 {
+        self.kernel.value(0.0)
+    }
+    /// What |W'| does not exceed, times a quantum: |W'/r| at 0 times the reach.
+    pub(crate) fn largest_slope(&self) -> f64 {
+        (self.kernel.derivative_over_r(0.0) * sqrt(self.squared)).abs()
     }
 }

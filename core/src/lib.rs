@@ -35,6 +35,7 @@ pub mod fields;
 pub mod integrator;
 pub mod kernel;
 pub mod lift;
+mod matrix;
 pub mod model;
 pub mod neighbours;
 pub mod number;

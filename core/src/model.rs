@@ -60,6 +60,9 @@ pub struct Settings<const D: usize> {
 /// Most kinds of energy that a model may have.
 pub const MAX_ENERGIES: usize = 8;
 
+/// Most numbers that a model may say of the whole.
+pub const MAX_TOTALS: usize = 4;
+
 /// A scheme: what a particle consists of, how a system is set up, and its step.
 pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     /// State and scratch; the first three are these, or these with a role on walls.
@@ -68,6 +71,9 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     const ENERGIES: &'static [&'static str];
     /// What is recorded and drawn of a particle besides position and velocity.
     const COLUMNS: &'static [Measure] = &[];
+    /// What is recorded of the whole besides energies and momenta, in the order of
+    /// [`Model::totals`].
+    const TOTALS: &'static [Measure] = &[];
     /// The field that is 1 where a particle is held in its place: it is no part of momenta, of the kinetic energy, or of the histogram of speeds.
     const HELD: Option<usize> = None;
     /// Whether what is held is a wall around a flow, and is drawn and written as one, or a clamp of
@@ -179,7 +185,7 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
                 let drift = Drift::new(c * self.settings().time_step, &self.scale());
                 exec.points(&drift, &mut system.particles)
             }
-            Stage::Lift(_) | Stage::Relax => Ok(()),
+            Stage::Lift(_) | Stage::Counterkick(_) | Stage::Relax => Ok(()),
         }
     }
 
@@ -209,6 +215,13 @@ pub trait Model<A: Arithmetic, const D: usize>: Send + Sync + Sized + 'static {
     /// # Errors
     /// A particle without an energy.
     fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault>;
+
+    /// The numbers of [`Model::TOTALS`], in their units, of a system that was refreshed; the rest of
+    /// the array is zero. As with energies, they must not depend on the storage order.
+    fn totals(&self, system: &System<'_, A, D>) -> [f64; MAX_TOTALS] {
+        let _ = system;
+        [0.0; MAX_TOTALS]
+    }
 
     /// How many particles have too few neighbours for what the model asks of them, of a system that
     /// was refreshed: parts that have torn off.
@@ -249,6 +262,7 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
     const FIELDS: &'static [Field] = R::Scheme::FIELDS;
     const ENERGIES: &'static [&'static str] = R::Scheme::ENERGIES;
     const COLUMNS: &'static [Measure] = R::Scheme::COLUMNS;
+    const TOTALS: &'static [Measure] = R::Scheme::TOTALS;
     const HELD: Option<usize> = R::Scheme::HELD;
     const HELD_IS_WALL: bool = R::Scheme::HELD_IS_WALL;
     const REVERSIBILITY: Reversibility = Reversibility::Dissipative;
@@ -311,6 +325,9 @@ impl<A: Arithmetic, R: Relax<A, D>, const D: usize> Model<A, D> for Dissipative<
     }
     fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault> {
         self.0.scheme().energies(system)
+    }
+    fn totals(&self, system: &System<'_, A, D>) -> [f64; MAX_TOTALS] {
+        self.0.scheme().totals(system)
     }
     fn lone_particles(&self, system: &System<'_, A, D>) -> u64 {
         self.0.scheme().lone_particles(system)

@@ -63,6 +63,25 @@ pub fn sqrt(x: f64) -> f64 {
     return libm::sqrt(x);
 }
 
+/// x^(1/D) for D = 2 and 3 and x > 0, from `+ * / sqrt` alone, in one written order. The cube root
+/// is within 2e-16 of it, relatively, for x from 1/64 to 64.
+#[inline(always)]
+#[must_use]
+pub fn root<const D: usize>(x: f64) -> f64 {
+    if D == 2 {
+        return sqrt(x);
+    }
+    // Newton's iteration, from a start that is exact at 1.
+    let mut y = (2.0 + x) / 3.0;
+    for _ in 0..ROOT_STEPS {
+        y = (y + y + x / (y * y)) / 3.0;
+    }
+    y
+}
+
+/// From the starts for 1/64 and 64 these are enough.
+const ROOT_STEPS: usize = 10;
+
 /// 1/n! for n up to 12.
 const INVERSE_FACTORIALS: [f64; 13] = {
     let (mut table, mut factorial, mut n) = ([1.0; 13], 1.0, 1);

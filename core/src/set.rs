@@ -5,9 +5,7 @@
 //! [`Column`] is one field of it as a pass reads it.
 
 use crate::fault::{CapacityError, check_capacity};
-use crate::fields::{
-    Field, MAX_FIELDS, POSITION, Quantum, Side, TimeParity, VELOCITY, state_fields, words_each,
-};
+use crate::fields::{Field, MAX_FIELDS, POSITION, Quantum, Side, TimeParity, VELOCITY, words_each};
 use crate::number::{Arithmetic, Quantity, Word};
 use crate::operands::{MAX_OPERANDS, Operands};
 use crate::values::Values;
@@ -292,12 +290,12 @@ impl<'a, A: Arithmetic, const D: usize> Set<'a, A, D> {
         (self.id, words)
     }
 
-    /// Turns time round: every odd field of the state changes sign. Twice is the identity, bit for
-    /// bit.
+    /// Turns time round: every odd field changes sign, of the state and, so that a kick which is
+    /// prepared remains that of the state, of the scratch. Twice is the identity, bit for bit.
     pub fn reverse(&mut self) {
-        for (f, field) in state_fields(self.fields, self.side) {
+        for (field, column) in self.fields.iter().zip(&mut self.columns) {
             if field.parity == TimeParity::Odd {
-                for word in &mut *self.columns[f] {
+                for word in &mut **column {
                     *word = word.negated();
                 }
             }

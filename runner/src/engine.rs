@@ -26,9 +26,6 @@ use rayon::prelude::*;
 /// Fewest particles of a copy worth a thread of their own.
 const PART: usize = 4096;
 
-/// Name of the field that an initial state gives besides positions and velocities.
-const WALL_OFFSET: &str = "wall offset";
-
 pub(crate) struct Engine<A: Arithmetic, M, const D: usize> {
     model: M,
     storage: Storage<A, D>,
@@ -75,16 +72,9 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
             system.particles.position_mut()[place] = x;
             system.particles.velocity_mut()[place] = v;
         }
-        let offset = M::FIELDS.iter().position(|f| f.name == WALL_OFFSET);
-        if let Some(field) = offset.filter(|_| !particles.wall_offset.is_empty()) {
-            for place in 0..n {
-                let particle = system.particles.id[place];
-                let way = first::<D>(particles.wall_offset[particle as usize]);
-                let words: [A::Length; D] =
-                    to_quanta(way, length).ok_or(BuildError::Range { particle })?;
-                system.particles.vectors_mut(field)[place] = words;
-            }
-        }
+        particles
+            .put_given(&mut system.particles, &scale)
+            .map_err(|particle| BuildError::Range { particle })?;
         for (w, x) in particles.wall.iter().enumerate() {
             let particle = (n + w) as u64;
             system.walls.position_mut()[w] =

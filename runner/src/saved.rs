@@ -75,7 +75,7 @@ impl SavedState {
             wall: walls.map(|words| self.in_si(words, quantum)).collect(),
             // What follows from them are fields of the state.
             parts: Vec::new(),
-            wall_offset: Vec::new(),
+            given: Vec::new(),
         }
     }
 

@@ -72,8 +72,9 @@ fn walls_are_held_parts_that_know_the_way_to_the_flow_and_how_they_move() {
         centre: [3.0, 0.0, 0.0],
     };
     assert_eq!(state.parts[3].motion, turns);
-    assert_eq!(state.wall_offset.len(), state.fluid.len());
-    for (id, (x, way)) in state.fluid.iter().zip(&state.wall_offset).enumerate() {
+    let ways = state.given("wall offset").expect("ways to the surface");
+    assert_eq!(ways.len(), state.fluid.len());
+    for (id, (x, way)) in state.fluid.iter().zip(ways).enumerate() {
         let part = state.parts.iter().rposition(|part| part.first <= id as u64);
         let expected = match part {
             Some(1) => [0.0, -x[1], 0.0],

@@ -73,13 +73,8 @@ impl<M: Model<Fixed, D>, const D: usize> Plain<M, D> {
         let velocities = system.particles.velocity_mut().iter_mut();
         let si = &initial.fluid_velocity;
         velocities.zip(si).for_each(|(v, si)| *v = speed(si));
-        let offset = M::FIELDS.iter().position(|f| f.name == "wall offset");
-        if let Some(field) = offset {
-            let offsets = system.particles.vectors_mut::<_, D>(field).iter_mut();
-            offsets
-                .zip(&initial.wall_offset)
-                .for_each(|(offset, si)| *offset = length(si));
-        }
+        let given = initial.put_given(&mut system.particles, &scale);
+        given.expect("in range");
         let walls = system.walls.position_mut().iter_mut();
         walls.zip(&initial.wall).for_each(|(x, si)| *x = length(si));
         plain

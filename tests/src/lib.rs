@@ -6,12 +6,14 @@
 //! - [`bodies`]: small elastic bodies.
 //! - [`small`]: small systems in `heapless` vectors, the same recipe for every scheme, dimension
 //!   and arithmetic.
+//! - [`helium`]: small drops of helium.
 //! - [`generator`]: numbers that look random and are the same everywhere.
 //! - [`program`]: scenes, players and runs in a line each.
 
 pub mod bodies;
 pub mod conformance;
 pub mod generator;
+pub mod helium;
 pub mod permitted;
 pub mod program;
 pub mod small;

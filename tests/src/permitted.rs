@@ -111,3 +111,18 @@ pub const RETURN_OF_THE_MIDPOINT: f64 = 1e-10;
 /// Energy errors of the two integrators of solids, relative to each other: both are of second
 /// order, and differ in terms that the plate hardly feels.
 pub const INTEGRATORS_OF_A_SOLID: f64 = 0.05;
+
+/// What all kinds of energy of a superfluid gain in ten steps of 5e-10 s, of what one of them
+/// does: rounding of velocities to 2^-41 m/s where a step changes them by 1e-6 m/s, and the next
+/// order of the scheme. A term that is missing in a law costs 1e-3.
+pub const ENERGY_OF_SHORT_STEPS: f64 = 1e-5;
+
+/// The order of accuracy, from two halvings of the time step: the next terms of the error.
+pub const ORDER_OF_A_SUPERFLUID: f64 = 0.25;
+
+/// Temperatures against differences of energies over 1e-3 J/(kg K), K: rounding 1e-16 of 10 J/kg
+/// over the difference, and a third derivative.
+pub const TEMPERATURE_OF_HELIUM: f64 = 1e-9;
+
+/// Newton's cube root against the library's, relative: the roundings of a division and of a sum.
+pub const CUBE_ROOT: f64 = 4e-16;

@@ -14,7 +14,9 @@ fn sums(row: &Integrator) -> (f64, f64) {
         .fold((0.0, 0.0), |(kick, drift), stage| match stage {
             Stage::Kick(c) => (kick + c, drift),
             Stage::Drift(c) => (kick, drift + c),
-            Stage::Lift(_) | Stage::Relax => panic!("{} lifts or relaxes", row.name),
+            Stage::Lift(_) | Stage::Counterkick(_) | Stage::Relax => {
+                panic!("{} does more than kick and drift", row.name)
+            }
         })
 }
 

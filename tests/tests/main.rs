@@ -30,5 +30,6 @@ mod snapshot_bytes;
 mod solid;
 mod solid_forces;
 mod standard;
+mod superfluid;
 mod viscous;
 mod wide_passes;

@@ -8,6 +8,7 @@ use loschmidt_core::schemes::solid::{
     ShearEnergy, Viscous, WallVelocity, whole_metric,
 };
 use loschmidt_core::{Diagnostics, Fixed, Model, Reversibility, Serial};
+use loschmidt_runner::GivenField;
 use loschmidt_runner::scene::InitialState;
 use loschmidt_tests::bodies::{SPACING, block, free_body, material, stir};
 use loschmidt_tests::conformance::{self, Plain};
@@ -31,7 +32,7 @@ fn boxed<const D: usize>(
         }
     };
     let mut state = InitialState::default();
-    let mut parts = Vec::new();
+    let (mut parts, mut ways) = (Vec::new(), Vec::new());
     let motions = [
         Motion::Still,
         Motion::Turns {
@@ -54,10 +55,14 @@ fn boxed<const D: usize>(
             for d in 0..D {
                 way[d] = x[d].clamp(-half(d), half(d)) - x[d];
             }
-            state.wall_offset.push(way);
+            ways.push(way);
             state.fluid_velocity.push([0.0; 3]);
         }
     }
+    state.given.push(GivenField {
+        name: "wall offset",
+        values: ways,
+    });
     let mut bodies = free_body(material(ShearEnergy::Dpr));
     bodies.parts = parts.into_iter().collect();
     let parameters = FluidParameters {
@@ -70,6 +75,11 @@ fn boxed<const D: usize>(
     (parameters, state)
 }
 
+/// The ways from the walls to the surface of the flow.
+fn ways(state: &InitialState) -> Vec<[f64; 3]> {
+    state.given("wall offset").expect("given").to_vec()
+}
+
 /// The same with a flow that is stirred.
 fn stirred<const D: usize>(
     counts: [usize; D],
@@ -78,7 +88,8 @@ fn stirred<const D: usize>(
 ) -> (FluidParameters<D>, InitialState) {
     let (parameters, mut state) = boxed(counts, relaxation, wall_velocity);
     stir::<D>(&mut state, 0.2, 0.3, 7);
-    for (v, way) in state.fluid_velocity.iter_mut().zip(&state.wall_offset) {
+    let ways = ways(&state);
+    for (v, way) in state.fluid_velocity.iter_mut().zip(&ways) {
         if *way != [0.0; 3] {
             *v = [0.0; 3];
         }
@@ -220,12 +231,8 @@ fn a_vortex_in_a_closed_box_decays_into_heat() {
         part.motion = Motion::Still;
     }
     let pi = std::f64::consts::PI;
-    for ((v, x), way) in state
-        .fluid_velocity
-        .iter_mut()
-        .zip(&state.fluid)
-        .zip(&state.wall_offset)
-    {
+    let ways = ways(&state);
+    for ((v, x), way) in state.fluid_velocity.iter_mut().zip(&state.fluid).zip(&ways) {
         if *way == [0.0; 3] {
             let angle = |d: usize| pi * (x[d] / (16.0 * SPACING) + 0.5);
             let (a, b) = (angle(0), angle(1));
@@ -281,7 +288,8 @@ fn walls_at_rest_take_little_of_what_a_vortex_gives_to_the_fluid() {
     for part in &mut parameters.bodies.parts {
         part.motion = Motion::Still;
     }
-    for (v, way) in state.fluid_velocity.iter_mut().zip(&state.wall_offset) {
+    let ways = ways(&state);
+    for (v, way) in state.fluid_velocity.iter_mut().zip(&ways) {
         if *way == [0.0; 3] {
             v[0] += 0.5;
         }
@@ -305,12 +313,8 @@ fn the_walls_of_a_linear_flow_continue_it() {
         part.motion = Motion::Still;
     }
     let surface = -4.0 * SPACING;
-    for ((v, x), way) in state
-        .fluid_velocity
-        .iter_mut()
-        .zip(&state.fluid)
-        .zip(&state.wall_offset)
-    {
+    let ways = ways(&state);
+    for ((v, x), way) in state.fluid_velocity.iter_mut().zip(&state.fluid).zip(&ways) {
         if *way == [0.0; 3] {
             *v = [0.3 * (x[1] - surface), 0.0, 0.0];
         }
@@ -394,11 +398,7 @@ fn in_space_the_determinant_of_the_distortion_stays_1() {
 #[test]
 fn walls_do_not_count_as_flow() {
     let (parameters, state) = boxed::<2>([20, 14], Relaxation::Exact, WallVelocity::Plain);
-    let flowing = state
-        .wall_offset
-        .iter()
-        .filter(|way| **way == [0.0; 3])
-        .count();
+    let flowing = ways(&state).iter().filter(|way| **way == [0.0; 3]).count();
     let model = Relaxing::<Fixed, 2>::viscous(parameters).unwrap();
     assert_eq!(model.0.scheme().parameters().bodies.parts.len(), 4);
     let mut plain = Plain::new(model, &state);

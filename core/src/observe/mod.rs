@@ -11,7 +11,7 @@ pub use pair_sums::sum_over_pairs;
 
 use crate::executor::Executor;
 use crate::fault::Fault;
-use crate::model::{MAX_ENERGIES, Model};
+use crate::model::{MAX_ENERGIES, MAX_TOTALS, Measure, Model};
 use crate::number::{Arithmetic, Quantity};
 use crate::system::System;
 
@@ -62,6 +62,45 @@ impl Energies {
     }
 }
 
+/// What a model says of the whole besides energies and momenta.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Totals {
+    measures: &'static [Measure],
+    values: [f64; MAX_TOTALS],
+}
+
+impl Default for Totals {
+    /// Nothing.
+    fn default() -> Self {
+        Self::new(&[], [0.0; MAX_TOTALS])
+    }
+}
+
+impl Totals {
+    /// These measures with these values, in the same order.
+    ///
+    /// # Panics
+    /// There are more measures than values.
+    #[must_use]
+    pub fn new(measures: &'static [Measure], values: [f64; MAX_TOTALS]) -> Self {
+        assert!(measures.len() <= MAX_TOTALS);
+        Self { measures, values }
+    }
+
+    /// Measures and values.
+    pub fn iter(&self) -> impl Iterator<Item = (Measure, f64)> {
+        self.measures.iter().copied().zip(self.values)
+    }
+
+    /// The value of this name; none where the model has no such measure.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<f64> {
+        let mut all = self.iter();
+        all.find(|(measure, _)| measure.name == name)
+            .map(|(_, value)| value)
+    }
+}
+
 /// What one looks at of a synchronised state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostics {
@@ -80,6 +119,8 @@ pub struct Diagnostics {
     pub momentum: [f64; 3],
     /// Angular momentum about the origin, kg m²/s.
     pub angular_momentum: [f64; 3],
+    /// See [`Model::TOTALS`].
+    pub totals: Totals,
     /// See [`Model::lone_particles`].
     pub lone_particles: u64,
 }
@@ -146,6 +187,7 @@ impl Diagnostics {
             momentum_quanta,
             angular_momentum_quanta,
             front,
+            totals: Totals::new(M::TOTALS, model.totals(system)),
             lone_particles: model.lone_particles(system),
         })
     }

@@ -1,4 +1,5 @@
 //! Models: a folder each.
 
 pub mod solid;
+pub mod superfluid;
 pub mod wcsph;

@@ -18,6 +18,7 @@ use super::types::Scene;
 use super::viscous::WallVelocity;
 use super::wcsph::{DensityCorrection, WallModel};
 use super::words::{Dimension, LatticeKind, RegionKind};
+use crate::given::GivenField;
 use crate::isc;
 use loschmidt_core::schemes::solid::Motion;
 
@@ -33,9 +34,9 @@ pub struct InitialState {
     /// The parts of elastic bodies or of a viscous fluid and its walls, one for each region, in the
     /// order of their first ids.
     pub parts: Vec<InitialPart>,
-    /// The ways from the wall particles of a viscous fluid to the surface of the flow, m, and
-    /// nothing for those that flow; empty in other scenes.
-    pub wall_offset: Vec<Vector3>,
+    /// What else the model is given of the particles: of a viscous fluid the ways from wall
+    /// particles to the surface of the flow, of a superfluid its counterflow and entropy.
+    pub given: Vec<GivenField>,
 }
 
 /// Particles with consecutive ids that belong to one body.
@@ -150,11 +151,14 @@ impl Scene {
             return Err(no_fluid());
         }
         self.refuse_overlap(&state, &placed)?;
-        if let Some(viscous) = self.viscous {
-            state.wall_offset = match viscous.wall_velocity {
-                WallVelocity::Mirrored => self.wall_offsets(&state),
-                WallVelocity::Plain => Vec::new(),
-            };
+        if let Some(viscous) = self.viscous
+            && viscous.wall_velocity == WallVelocity::Mirrored
+        {
+            let values = self.wall_offsets(&state);
+            state.given.push(GivenField {
+                name: "wall offset",
+                values,
+            });
         }
         if self.water.density_correction == DensityCorrection::Isc {
             self.correct(&mut state)?;

@@ -2,11 +2,12 @@
 
 use super::fields::{BODY, GRADIENT, MOMENTS, ONE, ONE_RATE};
 use super::parameters::Parameters;
-use super::passes::{GradientPass, MomentsPass, Reach};
+use super::passes::{GradientPass, MomentsPass};
 use super::updates::{Begin, Fall, NoGradient, NoMoments, Resolve, SetConstants, Stresses};
 use crate::executor::Executor;
 use crate::fault::Fault;
 use crate::fields::{Side, VELOCITY};
+use crate::kernel::Reach;
 use crate::model::{Settings, SetupError};
 use crate::number::{Arithmetic, Quantity};
 use crate::shears::Drift;

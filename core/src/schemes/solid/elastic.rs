@@ -164,7 +164,7 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
                 self.impulses(system, exec, c)
             }
             Lift(_) => self.bodies.moments(system, exec),
-            Drift(_) | Stage::Relax => Ok(()),
+            Drift(_) | Stage::Counterkick(_) | Stage::Relax => Ok(()),
         }
     }
 
@@ -177,7 +177,7 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
         match stage {
             Kick(c) => self.impulses(system, exec, c),
             Lift(_) => self.bodies.gradients(system, exec),
-            Drift(_) | Stage::Relax => Ok(()),
+            Drift(_) | Stage::Counterkick(_) | Stage::Relax => Ok(()),
         }
     }
 
@@ -193,7 +193,7 @@ impl<A: Arithmetic, C: Composition, const D: usize> Model<A, D> for Elastic<A, C
             Drift(c) => exec.points(&self.bodies.drift(c), particles),
             Lift(share) if C::EXACT => exec.points(&Advance { share }, particles),
             Lift(share) => exec.points(&CayleyAdvance { share }, particles),
-            Stage::Relax => Ok(()),
+            Stage::Counterkick(_) | Stage::Relax => Ok(()),
         }
     }
 

@@ -9,9 +9,9 @@
 
 use super::fields::{BODY, CLUMPING, DENSITY, DISTORTION, HELD, LOG_VOLUME, MOMENTS, ONE};
 use super::material::{Material, ShearEnergy, whole_metric};
-use super::matrix::{Matrix, determinant_of, is_damped, trace};
 use super::parameters::Parameters;
 use crate::exact::ExactSum;
+use crate::matrix::{Matrix, determinant_of, is_damped, trace};
 use crate::model::{MAX_ENERGIES, Measure};
 use crate::number::{Arithmetic, Quantity, sqrt};
 use crate::set::SetView;
@@ -187,7 +187,7 @@ pub(super) fn energies<A: Arithmetic, const D: usize>(
 }
 
 /// Free particles whose H is so near to singular that they feel less shear than they should, or none
-/// (see [`damped_inverse`](super::matrix::damped_inverse)), of a system whose moments are up to date.
+/// (see [`damped_inverse`](crate::matrix::damped_inverse)), of a system whose moments are up to date.
 pub(super) fn lone_particles<A: Arithmetic, const D: usize>(system: &System<'_, A, D>) -> u64 {
     let set = system.particles.view();
     let (moments, held) = (set.words(MOMENTS), set.words(HELD));

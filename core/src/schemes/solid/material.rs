@@ -18,7 +18,7 @@
 //! Source: Kincl, Peshkov, Pavelka & Klika, Appl. Math. Comput. 439 (2023) 127579, section 3.4;
 //! Dumbser, Peshkov, Romenski & Zanotti, J. Comput. Phys. 314 (2016) 824.
 
-use super::matrix::{Matrix, inverse, metric, product, trace};
+use crate::matrix::{Matrix, inverse, metric, product, trace};
 use crate::number::{exp, sqrt};
 
 /// Which shear energy.

@@ -12,7 +12,6 @@ mod energy;
 mod fields;
 mod fluid;
 mod material;
-mod matrix;
 mod parameters;
 mod passes;
 mod updates;

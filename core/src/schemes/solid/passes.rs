@@ -12,41 +12,11 @@
 //! particles of the own body, the density and its part of T over all: bodies that touch push each
 //! other, and slide.
 
-use crate::kernel::WendlandC2;
+use crate::kernel::Reach;
 use crate::number::{Lanes, sqrt};
 use crate::pairs::{PairPass, Parity};
 use crate::values;
 use crate::values::Symmetric;
-
-/// The kernel, and the square of its reach in length quanta.
-#[derive(Clone, Copy, Debug)]
-pub struct Reach {
-    pub(super) kernel: WendlandC2,
-    pub(super) squared: f64,
-}
-
-impl Reach {
-    /// The kernel of this support radius (m), its argument in quanta of so many metres.
-    pub(super) fn new(dimension: usize, support_radius: f64, quantum: f64) -> Self {
-        let reach = support_radius / quantum;
-        Self {
-            kernel: WendlandC2::new(dimension, support_radius, quantum),
-            squared: reach * reach,
-        }
-    }
-    /// The kernel, with its argument in length quanta.
-    pub(super) fn kernel(&self) -> &WendlandC2 {
-        &self.kernel
-    }
-    /// The square of its reach, in length quanta.
-    pub(super) fn squared(&self) -> f64 {
-        self.squared
-    }
-    /// What |W'| does not exceed, times a quantum.
-    fn largest_slope(&self) -> f64 {
-        (self.kernel.derivative_over_r(0.0) * sqrt(self.squared)).abs()
-    }
-}
 
 values! {
     /// What velocity gradients need of a particle.

@@ -5,12 +5,12 @@ use super::fields::{
     INVERSE, LOG_VOLUME, MOMENTS, ONE, ONE_RATE, STRESS,
 };
 use super::material::{Material, whole_metric};
-use super::matrix::{Matrix, damped_inverse, identity, inverse, product, trace};
 use super::parameters::{MAX_BODIES, Parameters, material_of};
 use super::passes::{Moments, Stressed};
 use crate::fault::{Fault, FaultKind};
 use crate::fields::IMPULSE;
 use crate::lift::lift;
+use crate::matrix::{Matrix, damped_inverse, identity, inverse, product, trace};
 use crate::number::{Arithmetic, Quantity, Word};
 use crate::points::PointPass;
 use crate::values;

@@ -15,8 +15,8 @@
 //! multiplication, so that equal masses exchange momentum exactly. All lengths are in quanta and
 //! all factors that do not depend on the pair are multiplied together once.
 
-use crate::kernel::WendlandC2;
-use crate::number::{Lanes, sqrt};
+use crate::kernel::Reach;
+use crate::number::Lanes;
 use crate::pairs::{PairPass, Parity};
 use crate::values;
 
@@ -29,32 +29,6 @@ fn scaled<L: Lanes, const D: usize>(x: &[L; D], factor: L) -> [L; D] {
         *x = factor * *x;
     }
     out
-}
-
-/// The kernel, and the square of its reach in length quanta.
-#[derive(Clone, Copy, Debug)]
-pub struct Reach {
-    pub(super) kernel: WendlandC2,
-    pub(super) squared: f64,
-}
-
-impl Reach {
-    /// The kernel of this support radius (m), its argument in quanta of so many metres.
-    pub(super) fn new(dimension: usize, support_radius: f64, quantum: f64) -> Self {
-        let reach = support_radius / quantum;
-        Self {
-            kernel: WendlandC2::new(dimension, support_radius, quantum),
-            squared: reach * reach,
-        }
-    }
-    /// W(0), which W does not exceed.
-    pub(super) fn largest_value(&self) -> f64 {
-        self.kernel.value(0.0)
-    }
-    /// What |W'| does not exceed, times a quantum: |W'/r| at 0 times the reach.
-    fn largest_slope(&self) -> f64 {
-        (self.kernel.derivative_over_r(0.0) * sqrt(self.squared)).abs()
-    }
 }
 
 /// Σ_j m W(r_ij), without the particle itself.

@@ -130,7 +130,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Standard<A, D> {
             Stage::Kick(_) => exec.points(&shears::Kick, &mut system.particles),
             Stage::Drift(c) => exec.points(&self.water.drift(c), &mut system.particles),
             Stage::Lift(c) => self.continuity(system, exec, c),
-            Stage::Relax => Ok(()),
+            Stage::Counterkick(_) | Stage::Relax => Ok(()),
         }
     }
 

@@ -10,12 +10,13 @@ use super::gravity::Pull;
 use super::parameters::{DensityCorrection, Parameters, Wall};
 use super::passes::{
     AntiClumpEnergyPass, AntiClumpPass, ContinuityPass, DensityPass, FilterPass, PressurePass,
-    Reach, WallEnergyPass, WallGeometry, WallPass,
+    WallEnergyPass, WallGeometry, WallPass,
 };
 use super::updates::{Constants, FromFixed, OwnDensity, PressureFactor};
 use crate::executor::Executor;
 use crate::fault::Fault;
 use crate::fields::{IMPULSE, Side};
+use crate::kernel::Reach;
 use crate::model::{Settings, SetupError};
 use crate::number::{Arithmetic, Quantity};
 use crate::observe::BINS;

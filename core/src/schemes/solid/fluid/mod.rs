@@ -268,7 +268,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Flow<A, D> {
                 self.impulses(system, exec, c)
             }
             Lift(_) => self.bodies.moments(system, exec),
-            Drift(_) | Stage::Relax => Ok(()),
+            Drift(_) | Stage::Counterkick(_) | Stage::Relax => Ok(()),
         }
     }
 
@@ -281,7 +281,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Flow<A, D> {
         match stage {
             Kick(c) => self.impulses(system, exec, c),
             Lift(_) => self.bodies.gradients(system, exec),
-            Drift(_) | Stage::Relax => Ok(()),
+            Drift(_) | Stage::Counterkick(_) | Stage::Relax => Ok(()),
         }
     }
 
@@ -302,7 +302,7 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Flow<A, D> {
                 let time = self.time(system, 0.5);
                 self.pretend(system, exec, time)
             }
-            Stage::Relax => Ok(()),
+            Stage::Counterkick(_) | Stage::Relax => Ok(()),
         }
     }
 

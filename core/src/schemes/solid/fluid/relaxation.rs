@@ -30,11 +30,11 @@
 
 use super::super::fields::{BODY, DISTORTION, EXCHANGED, GRADIENT, INVERSE, ONE, ONE_ENERGY};
 use super::super::material::{Material, deviator};
-use super::super::matrix::{Matrix, determinant_of, identity, metric, product};
 use super::super::parameters::{MAX_BODIES, material_of};
 use super::super::updates::{Flow, cayley, displacement};
 use super::parameters::{FluidParameters, Relaxation};
 use crate::fault::{Fault, FaultKind};
+use crate::matrix::{Matrix, determinant_of, identity, metric, product};
 use crate::number::{Arithmetic, Quantity};
 use crate::points::PointPass;
 use crate::values;

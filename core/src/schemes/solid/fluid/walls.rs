@@ -18,10 +18,11 @@
 
 use super::super::fields::{BESIDE, EXCHANGED, FORCES, HELD, ONE, ONE_ENERGY, WALL_OFFSET};
 use super::super::parameters::{Motion, Parameters};
-use super::super::passes::{Reach, SplitForce};
+use super::super::passes::SplitForce;
 use super::super::updates::Fall;
 use crate::fault::{Fault, FaultKind};
 use crate::fields::{IMPULSE, POSITION, VELOCITY};
+use crate::kernel::Reach;
 use crate::number::{Arithmetic, Lanes, Quantity, Word};
 use crate::pairs::{PairPass, Parity};
 use crate::points::PointPass;
@@ -77,10 +78,10 @@ impl<const D: usize> PairPass<D> for BesidePass {
     };
     #[inline(always)]
     fn reach_squared(&self) -> f64 {
-        self.reach.squared()
+        self.reach.squared
     }
     fn bound(&self, largest: &Beholding<f64, D>) -> f64 {
-        let value = self.reach.kernel().value_at(0.0).abs() * MOST_RATIO;
+        let value = self.reach.kernel.value_at(0.0).abs() * MOST_RATIO;
         let speed = largest.velocity.iter().fold(0.0, |a: f64, v| a.max(*v));
         // 1 but for states that somebody else has written.
         let (mixed, flows) = (
@@ -91,7 +92,7 @@ impl<const D: usize> PairPass<D> for BesidePass {
     }
     #[inline(always)]
     fn argument<L: Lanes>(&self, r2: L) -> L {
-        self.reach.kernel().q(r2.root())
+        self.reach.kernel.q(r2.root())
     }
     #[inline(always)]
     fn term<L: Lanes>(
@@ -118,7 +119,7 @@ impl<const D: usize> PairPass<D> for BesidePass {
         let height = least + (along - depth - least).positive_part();
         let most = argument.splat(MOST_RATIO);
         let ratio = most - (most - depth / height).positive_part();
-        let value = self.reach.kernel().value_at(argument) * mixed;
+        let value = self.reach.kernel.value_at(argument) * mixed;
         let weight = value * argument.splat(self.volume);
         let share = value * argument.splat(self.share) * ratio;
         let mut flow = *x_ij;

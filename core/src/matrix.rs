@@ -3,7 +3,7 @@
 use crate::values::Symmetric;
 
 /// D × D numbers, row by row.
-pub(super) type Matrix<const D: usize> = [[f64; D]; D];
+pub(crate) type Matrix<const D: usize> = [[f64; D]; D];
 
 /// Below this determinant of -H the inverse is no longer taken as it is: see [`damped_inverse`].
 /// At the corners of bodies it is 0.06 and more in the plane, but 0.004 in space.
@@ -15,13 +15,13 @@ const fn least_determinant(dimension: usize) -> f64 {
 }
 
 /// 1.
-pub(super) fn identity<const D: usize>() -> Matrix<D> {
+pub(crate) fn identity<const D: usize>() -> Matrix<D> {
     core::array::from_fn(|i| core::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }))
 }
 
 /// a b.
 #[inline(always)]
-pub(super) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
+pub(crate) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D> {
     let mut c = [[0.0; D]; D];
     for i in 0..D {
         for j in 0..D {
@@ -37,7 +37,7 @@ pub(super) fn product<const D: usize>(a: &Matrix<D>, b: &Matrix<D>) -> Matrix<D>
 
 /// aᵀ a.
 #[inline(always)]
-pub(super) fn metric<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
+pub(crate) fn metric<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
     let mut g = [[0.0; D]; D];
     for i in 0..D {
         for j in i..D {
@@ -54,7 +54,7 @@ pub(super) fn metric<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
 
 /// The sum of the diagonal.
 #[inline(always)]
-pub(super) fn trace<const D: usize>(a: &Matrix<D>) -> f64 {
+pub(crate) fn trace<const D: usize>(a: &Matrix<D>) -> f64 {
     let mut sum = a[0][0];
     for (i, row) in a.iter().enumerate().skip(1) {
         sum += row[i];
@@ -64,7 +64,7 @@ pub(super) fn trace<const D: usize>(a: &Matrix<D>) -> f64 {
 
 /// adj(a), with a adj(a) = det(a) 1.
 #[inline(always)]
-pub(super) fn adjugate<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
+pub(crate) fn adjugate<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
     let mut adj = [[0.0; D]; D];
     if D == 2 {
         adj[0][0] = a[1][1];
@@ -85,7 +85,7 @@ pub(super) fn adjugate<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
 
 /// det(a), from its first row and the first column of its adjugate.
 #[inline(always)]
-pub(super) fn determinant<const D: usize>(a: &Matrix<D>, adjugate: &Matrix<D>) -> f64 {
+pub(crate) fn determinant<const D: usize>(a: &Matrix<D>, adjugate: &Matrix<D>) -> f64 {
     let mut sum = a[0][0] * adjugate[0][0];
     for k in 1..D {
         sum += a[0][k] * adjugate[k][0];
@@ -94,13 +94,13 @@ pub(super) fn determinant<const D: usize>(a: &Matrix<D>, adjugate: &Matrix<D>) -
 }
 
 /// det(a).
-pub(super) fn determinant_of<const D: usize>(a: &Matrix<D>) -> f64 {
+pub(crate) fn determinant_of<const D: usize>(a: &Matrix<D>) -> f64 {
     determinant(a, &adjugate(a))
 }
 
 /// a⁻¹ of a matrix with a determinant that is not zero.
 #[inline(always)]
-pub(super) fn inverse<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
+pub(crate) fn inverse<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
     let mut inverse = adjugate(a);
     let factor = 1.0 / determinant(a, &inverse);
     for x in inverse.as_flattened_mut() {
@@ -110,7 +110,7 @@ pub(super) fn inverse<const D: usize>(a: &Matrix<D>) -> Matrix<D> {
 }
 
 /// Whether [`damped_inverse`] is not the inverse of this H.
-pub(super) fn is_damped<const D: usize>(moment: &Symmetric<f64, D>) -> bool {
+pub(crate) fn is_damped<const D: usize>(moment: &Symmetric<f64, D>) -> bool {
     determinant_of(&moment.rows.map(|row| row.map(|x| -x))) < const { least_determinant(D) }
 }
 
@@ -121,7 +121,7 @@ pub(super) fn is_damped<const D: usize>(moment: &Symmetric<f64, D>) -> bool {
 /// multiple of the adjugate keeps T H symmetric and so exerts no torque; at 0 the particle feels no
 /// shear and its distortion stands still. Inside a body p is about 1, and nothing is changed.
 #[inline(always)]
-pub(super) fn damped_inverse<const D: usize>(moment: &Symmetric<f64, D>) -> Symmetric<f64, D> {
+pub(crate) fn damped_inverse<const D: usize>(moment: &Symmetric<f64, D>) -> Symmetric<f64, D> {
     let positive = moment.rows.map(|row| row.map(|x| -x));
     let mut rows = adjugate(&positive);
     let d = determinant(&positive, &rows);

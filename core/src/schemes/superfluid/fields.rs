@@ -1,0 +1,110 @@
+//! What a particle of a superfluid consists of.
+
+use crate::fields::{
+    Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Rank, TimeParity, VELOCITY_FIELD,
+};
+
+/// w = u ϱ^(-1/D), the reduced counterflow. With the paper's integrator u itself.
+pub const COUNTERFLOW: usize = 3;
+/// σ = (s - s0)/s0.
+pub const ENTROPY: usize = 4;
+/// C_a, which makes the first relative density 1.
+pub const DENSITY_CONSTANT: usize = 5;
+/// Sums over positions and velocities, as [`Sums`](super::passes::Sums) has them.
+pub const SUMS: usize = 6;
+/// dt K, which ϱ turns into dt times the velocity gradient.
+pub const GRADIENT: usize = 7;
+/// H⁻¹, or the unit matrix where the operators are the paper's.
+pub const INVERSE: usize = 8;
+/// ϱ = ρ/ρ0.
+pub const DENSITY: usize = 9;
+/// What fluxes need of a particle, as [`Carrier`](super::passes::Carrier) has it.
+pub const CARRIER: usize = 10;
+/// Sums of fluxes, as [`Fluxes`](super::passes::Fluxes) has them.
+pub const FLUXES: usize = 11;
+/// What the present kick adds to the counterflow.
+pub const PULL: usize = 12;
+/// What the present kick adds to the entropy.
+pub const INFLOW: usize = 13;
+/// W, the second copy of w. The reversible model alone.
+pub const COUNTERFLOW_COPY: usize = 14;
+/// S, the second copy of s. The reversible model alone.
+pub const ENTROPY_COPY: usize = 15;
+/// dv and du of a whole step, kept from the end of the last one. The paper's integrator alone.
+pub const RATES: usize = 14;
+
+/// Entropies and sums over positions count 2^-48: they, or one term, are kept below 8.
+pub(super) const PURE: Quantum = Quantum::Pure(48);
+/// Sums over dt times velocities count 2^-50: one term is kept below 2.
+pub(super) const RATE: Quantum = Quantum::Pure(50);
+/// 1 in quanta of [`PURE`].
+pub(super) const ONE: f64 = (1u64 << 48) as f64;
+/// 1 in quanta of [`RATE`].
+pub(super) const ONE_RATE: f64 = (1u64 << 50) as f64;
+
+use Quantum::{Real, Speed};
+use Rank::{Matrix, Scalar, Several, Symmetric, Vector};
+use TimeParity::{Even, Odd};
+
+/// What both schemes have.
+const SHARED: [Field; 14] = [
+    POSITION_FIELD,
+    VELOCITY_FIELD,
+    IMPULSE_FIELD,
+    Field::state("counterflow", Vector, Speed, Odd),
+    Field::state("entropy", Scalar, PURE, Even),
+    Field::state("density_constant", Scalar, PURE, Even),
+    Field::scratch(
+        "sums",
+        Several {
+            plane: 8,
+            space: 16,
+        },
+        PURE,
+    ),
+    Field::scratch("gradient", Matrix, RATE),
+    Field::scratch("inverse moment", Symmetric, Real),
+    Field::scratch("relative density", Scalar, PURE),
+    Field::scratch(
+        "carrier",
+        Several {
+            plane: 9,
+            space: 12,
+        },
+        Real,
+    ),
+    Field::scratch(
+        "fluxes",
+        Several {
+            plane: 11,
+            space: 19,
+        },
+        Speed,
+    ),
+    Field::scratch("pull", Vector, Speed),
+    Field::scratch("inflow", Scalar, PURE).odd(),
+];
+
+/// The fields of the reversible model.
+pub(super) const FIELDS: [Field; 16] = {
+    let mut all = [Field::state("counterflow copy", Vector, Speed, Odd); 16];
+    let mut f = 0;
+    while f < SHARED.len() {
+        all[f] = SHARED[f];
+        f += 1;
+    }
+    all[ENTROPY_COPY] = Field::state("entropy copy", Scalar, PURE, Even);
+    all
+};
+
+/// The fields of the paper's integrator.
+pub(super) const FIELDS_OF_PAPER: [Field; 15] = {
+    let several = Several { plane: 4, space: 6 };
+    let mut all = [Field::state("rates", several, Speed, Even); 15];
+    let mut f = 0;
+    while f < SHARED.len() {
+        all[f] = SHARED[f];
+        f += 1;
+    }
+    all
+};
