@@ -62,6 +62,22 @@ brings them back: write `end`",
 `integrator = \"stormer-verlet\"`, or remove the key",
                 },
             ];
+            /// Superfluid helium, reversible.
+            Superfluid = "superfluid", keys superfluid, made by Superfluid::new,
+                from helium_parameters, except [Exclusion {
+                key: "integrator",
+                unless: Some("stormer-verlet"),
+                help: "superfluid helium has one composition of kicks, lifts and a drift: write \
+`integrator = \"stormer-verlet\"`, or remove the key",
+            }];
+            /// Superfluid helium with the integrator of the paper: not reversible.
+            SuperfluidPaper = "superfluid-paper", keys superfluid, made by PaperSuperfluid::new,
+                from helium_parameters, except [Exclusion {
+                key: "integrator",
+                unless: Some("stormer-verlet"),
+                help: "the paper's scheme has a composition of its own: write \
+`integrator = \"stormer-verlet\"`, or remove the key",
+            }];
         }
     };
 }

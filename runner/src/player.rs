@@ -48,7 +48,7 @@ pub enum PlayerError {
     #[error(transparent)]
     Fault(#[from] Fault),
     /// Seeking needs the way back, and this model has none.
-    #[error("the standard scheme is not symmetric in time: it cannot be integrated backwards")]
+    #[error("the scheme is not symmetric in time: it cannot be integrated backwards")]
     Irreversible,
     /// Seeking needs the way back, and floating-point sums do not return.
     #[error("floating-point arithmetic does not return to where it came from")]

@@ -1,9 +1,11 @@
 //! From a scene to a simulation: the parameters of the core, its units, and the memory it takes.
 
+mod helium;
 mod limits;
 mod response;
 mod solids;
 
+pub use helium::{FlowSpeeds, flow_speeds, helium_parameters};
 pub use limits::{fixed_limits, force_limit};
 pub use response::{LatticeResponse, lattice_response};
 pub use solids::{fluid_parameters, solid_parameters};
@@ -20,6 +22,7 @@ use loschmidt_core::fields::{Field, Side, state_fields};
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
 use loschmidt_core::model::{Measure, Model};
 use loschmidt_core::schemes::solid::{Midpoint, Relaxing, Solid, Viscous};
+use loschmidt_core::schemes::superfluid::{PaperSuperfluid, Superfluid};
 use loschmidt_core::schemes::wcsph::{
     AntiClump, Central, DensityCorrection, Filter, Gravity, StateEquation, Wall,
 };
@@ -95,27 +98,35 @@ macro_rules! build_models {
 }
 for_each_model!(build_models);
 
+/// What the models of a family declare, in one dimension or the other.
+macro_rules! declared {
+    ($scene:expr, $what:ident) => {{
+        let plane = $scene.dimension == scene::Dimension::Two;
+        match ($scene.solid, $scene.viscous, $scene.superfluid) {
+            (Some(_), ..) if plane => <Solid<Fixed, 2> as Model<Fixed, 2>>::$what,
+            (Some(_), ..) => <Solid<Fixed, 3> as Model<Fixed, 3>>::$what,
+            (None, Some(_), _) if plane => <Viscous<Fixed, 2> as Model<Fixed, 2>>::$what,
+            (None, Some(_), _) => <Viscous<Fixed, 3> as Model<Fixed, 3>>::$what,
+            (None, None, Some(_)) => <Superfluid<Fixed, 2> as Model<Fixed, 2>>::$what,
+            (None, None, None) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::$what,
+        }
+    }};
+}
+
 /// What is recorded of a particle of the scene besides position and velocity.
 #[must_use]
 pub fn columns(scene: &Scene) -> &'static [Measure] {
-    let plane = scene.dimension == scene::Dimension::Two;
-    match (own_of(scene), scene.solid, scene.viscous) {
-        (Some(model), ..) => model.columns,
-        (None, Some(_), _) if plane => <Solid<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
-        (None, Some(_), _) => <Solid<Fixed, 3> as Model<Fixed, 3>>::COLUMNS,
-        (None, None, Some(_)) if plane => <Viscous<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
-        (None, None, Some(_)) => <Viscous<Fixed, 3> as Model<Fixed, 3>>::COLUMNS,
-        (None, None, None) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS,
-    }
+    own_of(scene).map_or_else(|| declared!(scene, COLUMNS), |model| model.columns)
 }
 
 /// The columns of every model that this program knows.
 #[must_use]
 pub fn every_column() -> Vec<Measure> {
     let mut all = <Symplectic<Fixed, 2> as Model<Fixed, 2>>::COLUMNS.to_vec();
-    let more = <Viscous<Fixed, 3> as Model<Fixed, 3>>::COLUMNS.iter();
+    let viscous = <Viscous<Fixed, 3> as Model<Fixed, 3>>::COLUMNS.iter();
+    let superfluid = <Superfluid<Fixed, 3> as Model<Fixed, 3>>::COLUMNS.iter();
     let own = own::columns();
-    for measure in more.chain(&own) {
+    for measure in viscous.chain(superfluid).chain(&own) {
         if !all.contains(measure) {
             all.push(*measure);
         }
@@ -123,14 +134,20 @@ pub fn every_column() -> Vec<Measure> {
     all
 }
 
+/// A total by its heading in a series ([`heading`](crate::run::heading)): its name, and its unit.
+#[must_use]
+pub fn total_for_people(heading: &str) -> (String, &'static str) {
+    let all = <Superfluid<Fixed, 2> as Model<Fixed, 2>>::TOTALS.iter();
+    let mut all = all.filter(|measure| crate::run::heading(measure) == heading);
+    match all.next() {
+        Some(measure) => (measure.name.to_owned(), measure.unit),
+        None => (heading.replace('_', " "), ""),
+    }
+}
+
 /// What a particle of the scene consists of.
 fn fields(scene: &Scene) -> &'static [Field] {
-    match (own_of(scene), scene.solid, scene.viscous) {
-        (Some(model), ..) => model.fields,
-        (None, Some(_), _) => <Solid<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
-        (None, None, Some(_)) => <Viscous<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
-        (None, None, None) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::FIELDS,
-    }
+    own_of(scene).map_or_else(|| declared!(scene, FIELDS), |model| model.fields)
 }
 
 fn own_of(scene: &Scene) -> Option<OwnModel> {
@@ -226,8 +243,13 @@ fn wall(scene: &Scene) -> Wall {
 
 /// The largest speed at the start, m/s.
 fn fastest(initial: &InitialState) -> f64 {
-    let speed = |v: &Vector3| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-    initial.fluid_velocity.iter().map(speed).fold(0.0, f64::max)
+    largest(&initial.fluid_velocity)
+}
+
+/// The largest length of these.
+fn largest(vectors: &[Vector3]) -> f64 {
+    let length = |v: &Vector3| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    vectors.iter().map(length).fold(0.0, f64::max)
 }
 
 fn max_buckets(particles: usize) -> usize {

@@ -126,3 +126,11 @@ pub const TEMPERATURE_OF_HELIUM: f64 = 1e-9;
 
 /// Newton's cube root against the library's, relative: the roundings of a division and of a sum.
 pub const CUBE_ROOT: f64 = 4e-16;
+
+/// Speeds of second sound over that of the theory, beside those of another program that reads its
+/// amplitude in another way.
+pub const SECOND_SOUND: f64 = 0.005;
+
+/// Energy error of a period of second sound at N = 25 with 20 steps for a smoothing length over
+/// first sound, of the energy of the wave: another program found 3.7e-9.
+pub const ENERGY_OF_SECOND_SOUND: f64 = 1e-8;

@@ -25,6 +25,7 @@ mod run_conservation;
 mod run_dam_break;
 mod run_faults;
 mod run_solids;
+mod run_superfluid;
 mod setup_errors;
 mod snapshot_bytes;
 mod solid;

@@ -238,7 +238,7 @@ fn what_cannot_go_back_says_why_and_stays() {
     assert_eq!(small().reversibility(), Reversibility::BitExact);
     assert_eq!(
         PlayerError::Irreversible.to_string(),
-        "the standard scheme is not symmetric in time: it cannot be integrated backwards"
+        "the scheme is not symmetric in time: it cannot be integrated backwards"
     );
     assert_eq!(
         PlayerError::FloatingPoint.to_string(),

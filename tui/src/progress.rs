@@ -135,12 +135,26 @@ impl Display {
 fn energies(progress: &Progress<'_>, unit: TimeUnit) -> String {
     let (row, home) = (progress.row, progress.home);
     // Short enough for one line of 80 columns: a wrapped bar cannot be redrawn cleanly.
-    let mut text = format!("t {:.4} {}  J:", unit.count(row.time_s), unit.name);
+    let largest = row.energies.iter().chain(&home.energies);
+    let largest = largest.fold(0.0, |most: f64, (_, energy)| most.max(energy.abs()));
+    let (joules, scale) = smaller_than_joule(largest);
+    let mut text = format!("t {:.4} {}  {joules}:", unit.count(row.time_s), unit.name);
     for (kind, energy) in row.energies.iter().take(4) {
-        text += &format!(" {} {energy:.0}", brief(kind));
+        text += &format!(" {} {:.0}", brief(kind), energy / scale);
     }
     let error = row.total - home.total;
     text + &format!(" error {error:+.1e}  S {:.3}", row.entropy)
+}
+
+/// The unit of energies whose largest is this, and J for each: J, or where that is little a smaller
+/// one.
+pub fn smaller_than_joule(largest: f64) -> (&'static str, f64) {
+    match largest {
+        0.0 | 1.0.. => ("J", 1.0),
+        1e-3.. => ("mJ", 1e-3),
+        1e-6.. => ("µJ", 1e-6),
+        _ => ("nJ", 1e-9),
+    }
 }
 
 /// Seconds for people: 48 s, 12 min 30 s, 2 h 05 min.

@@ -1,8 +1,10 @@
 //! What a run says at its end.
 
+use crate::progress::smaller_than_joule;
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use loschmidt_runner::Outcome;
 use loschmidt_runner::run::Row;
+use loschmidt_runner::setup::total_for_people;
 use loschmidt_runner::time_unit::TimeUnit;
 
 /// The table of energies, entropy and digests.
@@ -28,10 +30,19 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
     line("time", &|row| {
         format!("{:.4} {}", unit.count(row.time_s), unit.name)
     });
+    let largest = rows.iter().flat_map(|row| &row.energies);
+    let joule = joules(largest.fold(0.0, |most: f64, (_, value)| most.max(value.abs())));
     for (kind, _) in first.into_iter().flat_map(|row| &row.energies) {
         line(&format!("{kind} energy"), &|row| joule(row.energy(kind)));
     }
     line("total energy", &|row| joule(row.total));
+    for (heading, _) in first.into_iter().flat_map(|row| &row.totals) {
+        let (name, unit) = total_for_people(heading);
+        line(&name, &|row| {
+            row.total_of(heading)
+                .map_or(String::new(), |x| format!("{x:.6e} {unit}"))
+        });
+    }
     line("entropy", &|row| format!("{:.4}", row.entropy));
     line("  in equilibrium", &|row| {
         row.equilibrium_entropy_of_energy
@@ -55,6 +66,9 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
             } else if kinetic > 0.0 {
                 let share = error / kinetic;
                 format!(", {share:.2e} of the kinetic energy at the start")
+            } else if outcome.energy.initial > 0.0 {
+                let share = error / outcome.energy.initial;
+                format!(", {share:.2e} of the energy at the start")
             } else {
                 String::new()
             };
@@ -69,7 +83,7 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
     text += &format!("\n\nlargest energy error    {error}");
     if outcome.lone_particles > 0 {
         text += &format!(
-            "\nlone particles          {} with too few neighbours to feel all of the shear",
+            "\nlone particles          {} with too few neighbours to feel all of their surroundings",
             outcome.lone_particles
         );
     }
@@ -81,13 +95,18 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
     text
 }
 
-fn joule(energy: f64) -> String {
-    format!("{energy:.3} J")
+/// Writes energies whose largest is this: in J, or where that is little in a smaller unit.
+fn joules(largest: f64) -> impl Fn(f64) -> String {
+    let (unit, scale) = smaller_than_joule(largest);
+    move |energy| format!("{:.3} {unit}", energy / scale)
 }
 
 /// Why a run cannot be expected to return.
 fn reason(outcome: &Outcome) -> &'static str {
     match (outcome.model.as_str(), outcome.arithmetic.as_str()) {
+        ("superfluid-paper", _) => {
+            " The paper's integrator is not symmetric in time; model = \"superfluid\" returns."
+        }
         ("standard", _) => {
             " The standard scheme is not symmetric in time; model = \"symplectic\" returns."
         }

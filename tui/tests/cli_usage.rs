@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
 
-const CATALOGUE: [&str; 12] = [
+const CATALOGUE: [&str; 15] = [
     "dam-break",
     "dam-break-3d",
     "colliding-drops",
@@ -18,6 +18,9 @@ const CATALOGUE: [&str; 12] = [
     "cantilever",
     "taylor-couette",
     "lid-driven-cavity",
+    "second-sound",
+    "second-sound-steep",
+    "counterflow",
 ];
 
 /// Makes a few dozen steps of a scene of the catalogue.
@@ -111,6 +114,8 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
         assert!(!text.contains("SPOILT"), "{text}");
         assert_eq!(solid, text.contains("Young's modulus"), "{text}");
         assert_eq!(viscous, text.contains("relaxation time"), "{text}");
+        let helium = text.contains("second sound");
+        assert_eq!(helium, text.contains("superfluid helium at"), "{text}");
     }
     let paper = ["check", "beryllium-plate", "--preset", "paper"];
     let text = place.call(&paper).with_code(0).stdout;

@@ -1,7 +1,7 @@
 //! What the colour of a particle says.
 
 use crate::colour::{Colormap, Rgb};
-use crate::home::Home;
+use crate::home::{HeliumScales, Home};
 use loschmidt_core::model::Measure;
 use loschmidt_runner::scene::Scene;
 use loschmidt_runner::{Points, setup};
@@ -130,6 +130,9 @@ impl Colouring {
             Self::Column(measure) if let Some(shear_speed) = home.shear_speed => {
                 range_of_a_solid(measure, home, shear_speed)
             }
+            Self::Column(measure) if let Some(helium) = &home.helium => {
+                range_in_helium(measure, home, helium)
+            }
             Self::Column(measure) if measure.name == "density" => {
                 let swing = round_number(3.0 * u2 / (home.sound_speed * home.sound_speed));
                 [1.0 - swing, 1.0 + swing].map(|x| x * home.reference_density)
@@ -182,7 +185,35 @@ impl Colouring {
 }
 
 /// Columns that are nowhere negative.
-const ONE_SIDED: [&str; 2] = ["von Mises stress", "strain energy"];
+const ONE_SIDED: [&str; 6] = [
+    "von Mises stress",
+    "strain energy",
+    "normal speed",
+    "superfluid speed",
+    "counterflow speed",
+    "separation",
+];
+
+/// What a column of superfluid helium can come to. Pressures follow the momentum that the
+/// counterflow u carries, rho (chi_s/chi_n) u².
+fn range_in_helium(measure: &Measure, home: &Home, scales: &HeliumScales) -> [f64; 2] {
+    let (laws, u) = (&scales.laws, scales.flow.counterflow);
+    let around = |x: f64, swing: f64| [x - swing, x + swing];
+    let normal = laws.normal_fraction;
+    let carried = (1.0 - normal) / normal * (u * u);
+    let swing = round_number(carried / (laws.sound_speed * laws.sound_speed));
+    match measure.name {
+        "density" => around(1.0, swing).map(|x| x * home.reference_density),
+        "pressure" => around(0.0, round_number(home.reference_density * carried)),
+        "entropy" => around(laws.entropy, round_number(scales.entropy)),
+        "temperature" => {
+            let swing = laws.temperature * scales.entropy / laws.heat_capacity;
+            around(laws.temperature, round_number(swing))
+        }
+        "separation" => [0.0, round_number(1e-3 * u)],
+        _ => [0.0, round_number(u / normal)],
+    }
+}
 
 /// What a column of an elastic body can come to: a body that moves with the speed u is strained by
 /// about u/c, and its stress is about rho c u.

@@ -5,13 +5,16 @@
 //! means the same in all frames of a run:
 //!
 //! - speed U = max(√(2 g H), twice the fastest first velocity), H the height of the fluid (m) along
-//!   the gravity g (m/s²); a tenth of the sound speed where both are zero,
+//!   the gravity g (m/s²); a tenth of the sound speed where both are zero; in helium at least what
+//!   the counterflow drives it to,
 //! - pressure ρ₀ U², density ρ₀ (1 ± 3 U²/c²).
 
 use loschmidt_core::model::Measure;
+use loschmidt_core::schemes::superfluid::Helium;
 use loschmidt_runner::Frame;
 use loschmidt_runner::frame::FrameColumn;
 use loschmidt_runner::scene::{Dimension, RegionKind, Scene};
+use loschmidt_runner::setup::{self, FlowSpeeds};
 
 /// A box along the axes, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +63,39 @@ impl Box3 {
     }
 }
 
+/// The scales of superfluid helium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeliumScales {
+    /// Its laws.
+    pub laws: Helium,
+    /// Of its motions.
+    pub flow: FlowSpeeds,
+    /// Of |s - s0|, J/(kg K).
+    pub entropy: f64,
+}
+
+impl HeliumScales {
+    /// By the entropies and the counterflow at home.
+    fn of(laws: Helium, frame: &Frame) -> Self {
+        let largest = |name: &str, from: f64| {
+            let column = frame.columns.iter().find(|c| c.measure.name == name);
+            let values = column.into_iter().flat_map(|column| &column.values);
+            values.fold(0.0, |most: f64, x| most.max((x - from).abs()))
+        };
+        let excess = largest("entropy", laws.entropy) / laws.entropy;
+        let counterflow = laws.normal_fraction * largest("counterflow speed", 0.0);
+        let flow = setup::flow_speeds(&laws, excess, counterflow, fastest(frame));
+        // A flow of this speed turns into waves of about this amplitude, and the other way round.
+        let normal = laws.normal_fraction;
+        let wave = flow.counterflow / laws.second_sound() * ((1.0 - normal) / normal);
+        Self {
+            laws,
+            flow,
+            entropy: laws.entropy * excess.max(wave.min(1.0)),
+        }
+    }
+}
+
 /// What stays the same in all pictures of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Home {
@@ -75,6 +111,8 @@ pub struct Home {
     pub sound_speed: f64,
     /// Of shear waves in an elastic body, m/s; none in other matter.
     pub shear_speed: Option<f64>,
+    /// What helium comes to; none in other matter.
+    pub helium: Option<HeliumScales>,
     /// The scale U of speeds, m/s.
     pub speed: f64,
     /// The axis against gravity: 0 x, 1 y, 2 z. It is y where there is no gravity.
@@ -111,10 +149,16 @@ impl Home {
             .map_or(nothing, |b| b.grown(0.5 * spacing, dimension));
         let walls =
             Box3::around(frame.wall_position.iter()).map(|b| b.grown(0.5 * spacing, dimension));
-        let shown = match walls {
-            Some(walls) => walls.joined(fluid),
-            None if scene.solid.is_some() => fluid.grown(swing(frame, fluid, span), dimension),
-            None => fluid.grown(free_flight(frame, fluid, span), dimension),
+        let helium = scene
+            .superfluid
+            .map(|it| HeliumScales::of(it.helium(), frame));
+        let shown = match (walls, helium) {
+            (Some(walls), _) => walls.joined(fluid),
+            (None, Some(scales)) => fluid.grown(spread(scales.flow.whole, fluid, span), dimension),
+            (None, None) if scene.solid.is_some() => {
+                fluid.grown(swing(frame, fluid, span), dimension)
+            }
+            (None, None) => fluid.grown(free_flight(frame, fluid, span), dimension),
         };
         let gravity = scene.gravity.uniform;
         let up = (0..3)
@@ -136,7 +180,10 @@ impl Home {
             reference_density: scene.reference_density(),
             sound_speed: scene.sound_speed(),
             shear_speed: scene.solid.map(|solid| solid.shear_speed),
-            speed: if speed > 0.0 {
+            helium,
+            speed: if let Some(scales) = helium {
+                speed.max(scales.flow.whole)
+            } else if speed > 0.0 {
                 speed
             } else {
                 0.1 * scene.sound_speed()
@@ -192,6 +239,12 @@ fn swing(frame: &Frame, bodies: Box3, span: f64) -> f64 {
     let speeds = frame.velocity.iter().map(length);
     let mean = speeds.sum::<f64>() / frame.velocity.len().max(1) as f64;
     (0.5 * mean * span).clamp(0.1 * largest, 2.0 * largest)
+}
+
+/// As [`free_flight`], for helium, whose mean speed in the end is a fifth of this one, m.
+fn spread(speed: f64, drop: Box3, span: f64) -> f64 {
+    let largest = drop.size().into_iter().fold(0.0, f64::max);
+    (0.2 * speed * span).clamp(0.1 * largest, 2.0 * largest)
 }
 
 fn length(v: &[f64; 3]) -> f64 {

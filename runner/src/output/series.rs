@@ -1,7 +1,8 @@
 //! `series.csv`: one line per [`Row`], the units in the header.
 //!
-//! The energies of the model stand between the times and their sum, each as `KIND_J`. Numbers are
-//! written in the shortest form that reads back to the same bits.
+//! The energies of the model stand between the times and their sum, each as `KIND_J`; what else a
+//! model says of the whole stands at the end. Numbers are written in the shortest form that reads
+//! back to the same bits.
 
 use crate::run::Row;
 use serde::Serialize;
@@ -105,13 +106,16 @@ impl<W: Write> SeriesWriter<W> {
             let kinds = row.energies.iter().map(|(kind, _)| heading(kind));
             let names = HEAD.iter().map(|column| column.0.to_owned());
             let rest = TAIL.iter().map(|column| column.0.to_owned());
-            let header: Vec<String> = names.chain(kinds).chain(rest).collect();
+            let totals = row.totals.iter().map(|(name, _)| name.to_string());
+            let header: Vec<String> = names.chain(kinds).chain(rest).chain(totals).collect();
             self.csv.write_record(header)?;
         }
         let energies = row.energies.iter().map(|(_, value)| Number::Real(*value));
         let head = HEAD.iter().map(|column| column.1(row));
         let tail = TAIL.iter().map(|column| column.1(row));
-        let numbers: Vec<Number> = head.chain(energies).chain(tail).collect();
+        let totals = row.totals.iter().map(|(_, value)| Number::Real(*value));
+        let all = head.chain(energies).chain(tail).chain(totals);
+        let numbers: Vec<Number> = all.collect();
         self.csv.serialize(numbers).map_err(io::Error::from)?;
         self.csv.flush()
     }
@@ -132,49 +136,67 @@ pub fn read(mut reader: impl Read) -> io::Result<Vec<Row>> {
     let whole = text.iter().rposition(|&byte| byte == b'\n');
     let whole = &text[..whole.map_or(0, |end| end + 1)];
     let mut reader = csv::Reader::from_reader(whole);
-    let kinds = kinds(reader.headers()?)?;
+    let names = VariableColumns::of(reader.headers()?)?;
     let mut rows = Vec::new();
     for record in reader.records() {
         let record = record?;
         let line = record.position().map_or(0, csv::Position::line);
-        let row = row(&record, &kinds);
+        let row = row(&record, &names);
         rows.push(row.map_err(|column| bad(&format!("`{column}` in line {line}")))?);
     }
     Ok(rows)
 }
 
-/// The kinds of energy that a header names; none of an empty file.
-fn kinds(header: &csv::StringRecord) -> io::Result<Vec<String>> {
-    if header.is_empty() {
-        return Ok(Vec::new());
+/// The columns that depend on the model.
+#[derive(Default)]
+struct VariableColumns {
+    /// Kinds of energy.
+    kinds: Vec<String>,
+    /// Totals.
+    totals: Vec<String>,
+}
+
+impl VariableColumns {
+    /// Those that a header names; none of an empty file.
+    fn of(header: &csv::StringRecord) -> io::Result<Self> {
+        if header.is_empty() {
+            return Ok(Self::default());
+        }
+        let names: Vec<&str> = header.iter().collect();
+        let sum = TAIL[0].0;
+        let tail = names.iter().position(|name| *name == sum);
+        let tail = tail.ok_or_else(|| bad("the header"))?;
+        let (head, rest) = names.split_at(tail);
+        let fixed = |all: &[&str], columns: &[SeriesColumn]| {
+            all.len() >= columns.len() && all.iter().zip(columns).all(|(a, b)| *a == b.0)
+        };
+        if !fixed(head, &HEAD) || !fixed(rest, &TAIL) {
+            return Err(bad("the header"));
+        }
+        let kind = |name: &&str| Some(name.strip_suffix("_J")?.to_owned());
+        let kinds: Option<Vec<String>> = head[HEAD.len()..].iter().map(kind).collect();
+        Ok(Self {
+            kinds: kinds.ok_or_else(|| bad("the header"))?,
+            totals: rest[TAIL.len()..]
+                .iter()
+                .map(|name| (*name).to_owned())
+                .collect(),
+        })
     }
-    let energies = header.len().checked_sub(HEAD.len() + TAIL.len());
-    let energies = energies.ok_or_else(|| bad("the header"))?;
-    let known = HEAD.iter().map(|column| column.0);
-    let known = known.chain(TAIL.iter().map(|column| column.0));
-    let names = header.iter().enumerate();
-    let (named, others): (Vec<_>, Vec<_>) =
-        names.partition(|(n, _)| !(HEAD.len()..HEAD.len() + energies).contains(n));
-    if !known.eq(named.into_iter().map(|(_, name)| name)) {
-        return Err(bad("the header"));
-    }
-    let kind = |(_, name): (usize, &str)| Some(name.strip_suffix("_J")?.to_owned());
-    let kinds: Option<Vec<String>> = others.into_iter().map(kind).collect();
-    kinds.ok_or_else(|| bad("the header"))
 }
 
 /// A line as a row.
 ///
 /// # Errors
 /// The column whose number is missing or none.
-fn row(record: &csv::StringRecord, kinds: &[String]) -> Result<Row, String> {
+fn row(record: &csv::StringRecord, names: &VariableColumns) -> Result<Row, String> {
     let mut row = Row::default();
     let mut texts = record.iter();
     for (name, _, read) in &HEAD {
         let number = texts.next().and_then(|text| read(&mut row, text));
         number.ok_or_else(|| (*name).to_owned())?;
     }
-    for kind in kinds {
+    for kind in &names.kinds {
         let value = texts.next().and_then(|text| text.parse().ok());
         let value = value.ok_or_else(|| heading(kind))?;
         row.energies.push((kind.clone().into(), value));
@@ -182,6 +204,11 @@ fn row(record: &csv::StringRecord, kinds: &[String]) -> Result<Row, String> {
     for (name, _, read) in &TAIL {
         let number = texts.next().and_then(|text| read(&mut row, text));
         number.ok_or_else(|| (*name).to_owned())?;
+    }
+    for name in &names.totals {
+        let value = texts.next().and_then(|text| text.parse().ok());
+        let value = value.ok_or_else(|| name.clone())?;
+        row.totals.push((name.clone().into(), value));
     }
     Ok(row)
 }

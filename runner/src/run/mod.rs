@@ -14,6 +14,7 @@ pub(crate) use course::{belongs, scene_hash};
 pub use error::RunError;
 pub use outcome::{
     Angular, AngularMomentum, Cost, Digests, EnergyBalance, Entropy, Momentum, Outcome,
+    TotalOverTime,
 };
 pub use plan::{Due, Plan};
-pub use row::Row;
+pub use row::{Row, heading};

@@ -3,6 +3,7 @@
 use super::row::Row;
 use crate::player::{Player, Return};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Digests of the three states, as hexadecimal text.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -77,6 +78,44 @@ pub struct Entropy {
     pub equilibrium_turnaround: Option<f64>,
 }
 
+/// What a model says of the whole, over a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TotalOverTime {
+    /// At home.
+    pub initial: f64,
+    /// At the turnaround; `null` in a one-way run.
+    pub turnaround: Option<f64>,
+    /// At the end.
+    #[serde(rename = "final")]
+    pub last: f64,
+    /// The largest of all rows.
+    pub largest: f64,
+}
+
+impl TotalOverTime {
+    /// Every total by name, from all rows.
+    fn all(rows: &[Row], two_way: bool) -> BTreeMap<String, Self> {
+        let (Some(home), Some(last)) = (rows.first(), rows.last()) else {
+            return BTreeMap::new();
+        };
+        let turn = rows.iter().rev().find(|row| row.leg == 1);
+        let turn = turn.filter(|_| two_way);
+        let over_time = |name: &str, initial: f64| {
+            let values = rows.iter().filter_map(|row| row.total_of(name));
+            Self {
+                initial,
+                turnaround: turn.and_then(|row| row.total_of(name)),
+                last: last.total_of(name).unwrap_or(f64::NAN),
+                largest: values.fold(initial, f64::max),
+            }
+        };
+        let totals = home.totals.iter();
+        totals
+            .map(|(name, initial)| (name.to_string(), over_time(name, *initial)))
+            .collect()
+    }
+}
+
 /// The result of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Outcome {
@@ -120,8 +159,13 @@ pub struct Outcome {
     pub angular_momentum: AngularMomentum,
     /// Entropies.
     pub entropy: Entropy,
-    /// Particles of a body or a viscous fluid that have too few neighbours at the end to feel all of
-    /// its shear: what has torn off. Zero for water.
+    /// What else the model says of the whole, by name and unit; of a superfluid its thermodynamic
+    /// entropy, and how far its two copies are apart. Left out where there is nothing.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub totals: BTreeMap<String, TotalOverTime>,
+    /// Particles of a body, a viscous fluid or a superfluid that have too few neighbours at the end to
+    /// feel all of its shear, or of the gradient of the temperature: what has torn off. Zero for
+    /// water.
     pub lone_particles: u64,
     /// Everything, output included, s. Of the last piece of a run that was resumed.
     pub wall_time_s: f64,
@@ -252,6 +296,7 @@ impl Outcome {
                 last: last.entropy,
                 equilibrium_turnaround: turn.equilibrium_entropy_of_energy,
             },
+            totals: TotalOverTime::all(rows, two_way),
             lone_particles,
             wall_time_s: cost.wall_s,
             ns_per_particle_step: if work > 0.0 {

@@ -1,6 +1,7 @@
 //! A row of the series: what is recorded of a state.
 
 use crate::player::Player;
+use loschmidt_core::model::Measure;
 use loschmidt_core::{Diagnostics, Fault};
 use std::borrow::Cow;
 
@@ -49,6 +50,8 @@ pub struct Row {
     pub faster_than_last_bin: u32,
     /// Largest x of a particle: the leading edge.
     pub front_m: f64,
+    /// What else the model says of the whole, with the units in the names, in the model's order.
+    pub totals: Vec<(Cow<'static, str>, f64)>,
 }
 
 impl Row {
@@ -88,6 +91,11 @@ impl Row {
             fitted_temperature_m2_per_s2: fit,
             faster_than_last_bin: d.histogram.beyond,
             front_m: d.front,
+            totals: d
+                .totals
+                .iter()
+                .map(|(measure, value)| (heading(&measure).into(), value))
+                .collect(),
         }
     }
 
@@ -126,6 +134,13 @@ impl Row {
             .map_or(0.0, |(_, value)| *value)
     }
 
+    /// The total of this name.
+    #[must_use]
+    pub fn total_of(&self, name: &str) -> Option<f64> {
+        let mut totals = self.totals.iter();
+        totals.find(|(known, _)| known == name).map(|total| total.1)
+    }
+
     /// Σ v in speed quanta.
     #[must_use]
     pub fn momentum_quanta(&self) -> [i128; 3] {
@@ -134,5 +149,16 @@ impl Row {
             self.momentum_y_quanta,
             self.momentum_z_quanta,
         ]
+    }
+}
+
+/// A measure with its unit, as headings of files and keys of JSON have it.
+#[must_use]
+pub fn heading(measure: &Measure) -> String {
+    let name = measure.name.replace(' ', "_");
+    let unit = measure.unit.replace('/', "_per_").replace(' ', "_");
+    match unit.as_str() {
+        "" => name,
+        unit => format!("{name}_{}", unit.replace(['(', ')'], "")),
     }
 }

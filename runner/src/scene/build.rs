@@ -31,6 +31,7 @@ pub(super) fn build(spec: &SceneSpec) -> Result<Scene, SceneError> {
     wall(&mut builder, top, &scene);
     times(&mut builder, top, &scene);
     exclusions(&mut builder, top, scene.model);
+    forces(&mut builder, top, &scene);
     bodies(&mut builder, top, &mut scene);
     relaxation(&mut builder, top, &scene);
     builder.finish(scene)
@@ -55,7 +56,7 @@ fn name<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene, stem: &
 
 /// Walls that act by a potential need one.
 fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
-    if scene.has_distortion() {
+    if scene.fluid.is_none() {
         return;
     }
     let model = builder.word(top, "wall_model");
@@ -81,22 +82,10 @@ fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
     }
 }
 
-/// Bodies: not too many, one lattice each, and no forces that their models do not know.
+/// Bodies: not too many, and one lattice each.
 fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
     if !scene.has_distortion() {
         return;
-    }
-    if let Some(entry) = top.table.get("gravity")
-        && scene.gravity.central.is_some()
-    {
-        builder.conflict(
-            format!(
-                "`gravity.central` does not go with `model = \"{}\"`",
-                scene.model.word()
-            ),
-            entry.key,
-            "write `gravity.uniform`, or remove it".to_owned(),
-        );
     }
     let Some(entry) = top.table.get("region") else {
         return;
@@ -140,6 +129,23 @@ fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
                 );
             }
         }
+    }
+}
+
+/// Forces that the model does not know.
+fn forces<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
+    if let Some(entry) = top.table.get("gravity")
+        && scene.gravity.central.is_some()
+        && (scene.has_distortion() || scene.superfluid.is_some())
+    {
+        builder.conflict(
+            format!(
+                "`gravity.central` does not go with `model = \"{}\"`",
+                scene.model.word()
+            ),
+            entry.key,
+            "write `gravity.uniform`, or remove it".to_owned(),
+        );
     }
 }
 

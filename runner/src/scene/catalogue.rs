@@ -96,4 +96,22 @@ const ENTRIES: &[CatalogueEntry] = &[
         citation: "Kincl et al., Appl. Math. Comput. 439 (2023) 127579, section 4.4",
         text: include_str!("../../scenes/lid-driven-cavity.toml"),
     },
+    CatalogueEntry {
+        name: "second-sound",
+        title: "a standing wave of second sound in superfluid helium, and back",
+        citation: "Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, section III B",
+        text: include_str!("../../scenes/second-sound.toml"),
+    },
+    CatalogueEntry {
+        name: "second-sound-steep",
+        title: "a strong wave of second sound dissolves into disorder, and gathers itself again",
+        citation: "after Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124",
+        text: include_str!("../../scenes/second-sound-steep.toml"),
+    },
+    CatalogueEntry {
+        name: "counterflow",
+        title: "the two components of helium stream through each other in eddies, and back",
+        citation: "no publication: a test of how long a superfluid can be followed",
+        text: include_str!("../../scenes/counterflow.toml"),
+    },
 ];

@@ -164,7 +164,39 @@ impl Scene {
             self.correct(&mut state)?;
         }
         self.set_velocities(&mut state, &placed);
+        if let Some(superfluid) = self.superfluid {
+            let entropy = superfluid.helium().entropy;
+            self.set_counterflows(&mut state, &placed, entropy);
+        }
         Ok(state)
+    }
+
+    /// Gives a superfluid its first counterflow and entropy, where it is; `entropy` is s0.
+    fn set_counterflows(
+        &self,
+        state: &mut InitialState,
+        placed: &[(usize, RegionKind, usize)],
+        entropy: f64,
+    ) {
+        let axes = self.dimension.axes();
+        let mut counterflow = vec![[0.0; 3]; state.fluid.len()];
+        let mut excess = counterflow.clone();
+        for &(number, kind, start) in placed {
+            if !self.is_movable(kind) {
+                continue;
+            }
+            let (region, places) = (&self.regions[number], &state.fluid[start..]);
+            // What belongs to later regions is overwritten by them.
+            let all = region.counterflow.map(|field| field.at_all(places, axes));
+            counterflow[start..].copy_from_slice(&all.unwrap_or(vec![[0.0; 3]; places.len()]));
+            for (s, x) in excess[start..].iter_mut().zip(places) {
+                let field = region.entropy;
+                s[0] = field.map_or(0.0, |field| field.excess_at(*x, axes, entropy));
+            }
+        }
+        for (name, values) in [("counterflow", counterflow), ("entropy", excess)] {
+            state.given.push(GivenField { name, values });
+        }
     }
 
     /// Gives the fluid its first velocities, where it is.

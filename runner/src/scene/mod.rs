@@ -7,14 +7,14 @@
 //!
 //! Each key is declared once, with its type, unit, range, default and meaning (module `declare`):
 //! those of every scene in `types`, `forces`, `step` and `region_keys`, those of the weakly
-//! compressible models in `wcsph`, of elastic ones in `solid`, of the
-//! viscous one in `viscous`; `model` is the table of models.
+//! compressible models in `wcsph`, of elastic ones in `solid`, of the viscous one in `viscous`, of
+//! superfluids in `superfluid`; `model` is the table of models.
 //! [`Scene::to_toml`] prints a scene with all keys, unit and meaning beside each. Every mistake of a
 //! text is reported, each with file, line, caret and help, in one [`SceneError`].
 //!
 //! The initial state is the same bit for bit on every machine: node coordinates, membership in
-//! shapes and velocities use `+ - * / sqrt` and comparisons alone, and for spirals, bending and
-//! twist the functions of `libm`; every coordinate comes from an integer index (see
+//! shapes and velocities use `+ - * / sqrt` and comparisons alone, and for spirals, bending,
+//! twist and waves the functions of `libm`; every coordinate comes from an integer index (see
 //! [`Scene::initial_state`]).
 //!
 //! ```
@@ -61,6 +61,7 @@ mod solid;
 mod source;
 mod spec;
 mod step;
+mod superfluid;
 mod surface;
 mod thickness;
 mod types;
@@ -80,6 +81,7 @@ pub use shape::Shape;
 pub use solid::{ElasticEnergy, Solid};
 pub use source::{Source, resolve};
 pub use step::StepRule;
+pub use superfluid::{Counterflow, FirstEntropy, HeliumAt, Operators, Superfluid};
 pub use types::{Output, Scene};
 pub use viscous::{Relaxation, Viscous, WallVelocity};
 pub use wcsph::{DensityCorrection, EquationOfState, Fluid, WallModel, WallPotential, Water};

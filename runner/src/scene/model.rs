@@ -10,7 +10,7 @@ use super::builder::{Builder, Here};
 use super::declare::KeyValue;
 use super::page::{Page, text};
 use super::schema::{Family, ValueType};
-use super::{solid, viscous, wcsph};
+use super::{solid, superfluid, viscous, wcsph};
 use crate::model_list::for_each_model;
 use std::sync::{PoisonError, RwLock};
 

@@ -4,10 +4,12 @@ use super::geometry::Vector3;
 use super::page::{Page, comment, list, number, text};
 use super::region::{MaterialOfBody, Region, Velocity};
 use super::region_keys::{
-    BALL, BLOCK, ELLIPSOID, LAYER, MATERIAL, POLYGON, REGION, SHAPE, SHELL, VELOCITY,
+    BALL, BLOCK, COUNTERFLOW, ELLIPSOID, ENTROPY, LAYER, MATERIAL, POLYGON, REGION, SHAPE, SHELL,
+    VELOCITY,
 };
 use super::schema::TableRules;
 use super::shape::Shape;
+use super::superfluid::{self, Counterflow, FirstEntropy};
 use super::viscous;
 use super::words::{Dimension, RegionKind};
 
@@ -36,6 +38,43 @@ pub(super) fn print_region(page: &mut Page, region: &Region) {
     let wall_that_moves = region.kind == RegionKind::Wall && page.is_of(viscous::FAMILY);
     if (region.kind.is_of_the_model() && !region.held) || wall_that_moves {
         print_velocity(page, region.velocity);
+    }
+    if page.is_of(superfluid::FAMILY) {
+        print_superfluid(page, region);
+    }
+}
+
+/// Prints the first counterflow and entropy of a superfluid.
+fn print_superfluid(page: &mut Page, region: &Region) {
+    let counterflow = match region.counterflow {
+        None => Vec::new(),
+        Some(Counterflow::Uniform(u)) => vec![("uniform", page.vector(u))],
+        Some(Counterflow::Random {
+            speed,
+            length,
+            seed,
+        }) => vec![
+            ("random", number(speed)),
+            ("length", number(length)),
+            ("seed", seed.to_string()),
+        ],
+    };
+    let entropy = match region.entropy {
+        None => Vec::new(),
+        Some(FirstEntropy::Uniform(s)) => vec![("uniform", number(s))],
+        Some(FirstEntropy::Wave { amplitude, length }) => {
+            vec![("wave", number(amplitude)), ("length", number(length))]
+        }
+    };
+    for (path, rules, given) in [
+        ("counterflow", &COUNTERFLOW, counterflow),
+        ("entropy", &ENTROPY, entropy),
+    ] {
+        for key in rules.keys {
+            let value = given.iter().find(|(known, _)| *known == key.name);
+            let value = value.map(|(_, value)| value.clone());
+            page.value_at(key, &format!("{path}.{}", key.name), value);
+        }
     }
 }
 

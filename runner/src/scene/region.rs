@@ -3,6 +3,7 @@
 use super::geometry::Vector3;
 use super::shape::Shape;
 use super::solid::{ElasticEnergy, Solid};
+use super::superfluid::{Counterflow, FirstEntropy};
 use super::words::{LatticeKind, RegionKind};
 use loschmidt_core::schemes::solid::Motion;
 use std::f64::consts::PI;
@@ -20,6 +21,10 @@ pub struct Region {
     /// First velocity; `None` is at rest. Of a wall, how it slides or turns: in scenes of a viscous
     /// fluid alone.
     pub velocity: Option<Velocity>,
+    /// First counterflow of a superfluid; `None` is none.
+    pub counterflow: Option<Counterflow>,
+    /// First entropy of a superfluid; `None` is that of the reference temperature.
+    pub entropy: Option<FirstEntropy>,
     /// Name of the body that a solid region belongs to; `None`: a body of its own.
     pub body: Option<String>,
     /// In what its body differs from the table `[solid]`.

@@ -2,12 +2,13 @@
 //! [`regions`](super::regions)), since several of them exclude each other. A shape holds shapes, so
 //! the rules of these tables refer to each other.
 
-use super::schema::Range::{Above, AboveUpTo, AtLeast};
+use super::schema::Range::{Above, AboveUpTo, AtLeast, Between};
 use super::schema::ValueType::{
-    Choice, Flag, Matrix, Number, Rotation, Table, Tables, Text, Vector,
+    Choice, Flag, Matrix, Number, Rotation, Table, Tables, Text, Vector, Whole,
 };
 use super::schema::{Form, SceneKey, TableRules, ValueType, key};
 use super::solid::{self, ElasticEnergy};
+use super::superfluid;
 use super::words::Dimension::{Three, Two};
 use super::words::{LatticeKind, RegionKind};
 
@@ -41,6 +42,12 @@ pub(super) static REGION: TableRules = TableRules {
         key("velocity", Table(&VELOCITY)).means(
             "first velocity of the fluid, or how a wall of a viscous one moves; absent: at rest",
         ),
+        key("counterflow", Table(&COUNTERFLOW))
+            .of(superfluid::FAMILY)
+            .means("first counterflow, v - v_s; absent: none"),
+        key("entropy", Table(&ENTROPY))
+            .of(superfluid::FAMILY)
+            .means("first entropy; absent: that of the reference temperature"),
     ],
 };
 
@@ -65,6 +72,53 @@ pub(super) static MATERIAL: TableRules = TableRules {
         key("energy", Choice(ElasticEnergy::WORDS))
             .of(solid::FAMILY)
             .means("energy of shear of this body"),
+    ],
+};
+
+pub(super) static COUNTERFLOW: TableRules = TableRules {
+    title: "a `counterflow`",
+    form: Form::Other,
+    keys: &[
+        key("uniform", Vector)
+            .unit("m/s")
+            .of(superfluid::FAMILY)
+            .means("the same everywhere"),
+        key("random", Number)
+            .unit("m/s")
+            .of(superfluid::FAMILY)
+            .within(AtLeast(0.0))
+            .means("about the root mean square of ten random plane waves"),
+        key("length", Number)
+            .unit("m")
+            .of(superfluid::FAMILY)
+            .within(Above(0.0))
+            .means("L of their wave vectors, (-3 … 3) pi/L along each axis"),
+        key("seed", Whole)
+            .of(superfluid::FAMILY)
+            .within(Between(0.0, 1e9))
+            .or(1.0)
+            .means("which waves of all that are random"),
+    ],
+};
+
+pub(super) static ENTROPY: TableRules = TableRules {
+    title: "an `entropy`",
+    form: Form::Other,
+    keys: &[
+        key("uniform", Number)
+            .unit("J/(kg K)")
+            .of(superfluid::FAMILY)
+            .within(Above(0.0))
+            .means("the same everywhere"),
+        key("wave", Number)
+            .of(superfluid::FAMILY)
+            .within(Between(-0.5, 0.5))
+            .means("amplitude A of s = s0 (1 + A sin(pi x/L) sin(pi y/L)), in space with z too"),
+        key("length", Number)
+            .unit("m")
+            .of(superfluid::FAMILY)
+            .within(Above(0.0))
+            .means("L of the wave"),
     ],
 };
 

@@ -6,15 +6,17 @@ use super::page::Page;
 use super::print::print_region;
 use super::region::{MaterialOfBody, Region, Velocity};
 use super::region_keys::{
-    BALL, BLOCK, ELLIPSOID, LAYER, MATERIAL, POLYGON, REGION, REGIONS, SHAPE, SHELL, VELOCITY,
+    BALL, BLOCK, COUNTERFLOW, ELLIPSOID, ENTROPY, LAYER, MATERIAL, POLYGON, REGION, REGIONS, SHAPE,
+    SHELL, VELOCITY,
 };
 use super::schema::{Family, SceneKey, listed};
 use super::shape::Shape;
 use super::spec::{Entry, WrittenTable, WrittenValue};
+use super::superfluid::{Counterflow, FirstEntropy};
 use super::values::{as_table, elements, number, numbers};
 use super::wcsph;
 use super::words::{ChoiceWord, Dimension, LatticeKind, RegionKind};
-use super::{solid, viscous};
+use super::{solid, superfluid, viscous};
 
 /// The axes by name, for messages.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -67,6 +69,9 @@ fn refuse_kind<'a>(builder: &mut Builder<'a>, here: Here<'a>, kind: RegionKind) 
         }
         RegionKind::Wall if builder.is_of(solid::FAMILY) && !builder.is_of(wcsph::FAMILY) => {
             "write `kind = \"solid\"` and `held = true`: a solid that never moves"
+        }
+        RegionKind::Wall if builder.is_of(superfluid::FAMILY) && !builder.is_of(wcsph::FAMILY) => {
+            "helium has free surfaces on all sides: remove the region"
         }
         _ => return,
     };
@@ -167,6 +172,12 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
     if kind == RegionKind::Wall {
         refuse_shapeless_motion(builder, here, velocity);
     }
+    let counterflow = builder
+        .inner(here, "counterflow", &COUNTERFLOW)
+        .and_then(|inner| counterflow(builder, inner));
+    let entropy = builder
+        .inner(here, "entropy", &ENTROPY)
+        .and_then(|inner| entropy(builder, inner));
     let shape = builder
         .inner(here, "shape", &SHAPE)
         .map_or(nothing(), |inner| shape(builder, inner));
@@ -175,10 +186,78 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
         shape,
         lattice: kind.is_of_the_model().then_some(lattice),
         velocity,
+        counterflow,
+        entropy,
         body,
         material,
         held,
     }
+}
+
+/// Reports companions of a key that is not given, and companions of the given one that are missing.
+fn companions<'a>(
+    builder: &mut Builder<'a>,
+    here: Here<'a>,
+    given: &str,
+    all: &[(&'static str, &[&str])],
+    needed: &[&'static str],
+) {
+    for (name, owners) in all {
+        if let Some(stray) = here.table.get(name)
+            && !owners.contains(&given)
+        {
+            let owners: Vec<String> = owners.iter().map(|owner| format!("`{owner}`")).collect();
+            let owners = listed(&owners, "or");
+            builder.conflict(
+                format!("`{name}` goes with {owners}, not with `{given}`"),
+                stray.key,
+                "remove it".to_owned(),
+            );
+        }
+    }
+    for name in needed {
+        if here.table.get(name).is_none() && !here.misspells(name) {
+            let message = format!("`{given}` needs `{name}`");
+            let meaning = here.rules.key(name).map_or("", |key| key.meaning);
+            builder.missing(here, message, vec![format!("`{name}`: {meaning}")]);
+        }
+    }
+}
+
+fn counterflow<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Counterflow> {
+    let fields = ["uniform", "random"];
+    let entry = only_one(builder, here, "the counterflow", |name| {
+        fields.contains(&name)
+    })?;
+    let random = entry.name == "random";
+    let all: [(&str, &[&str]); 2] = [("length", &["random"]), ("seed", &["random"])];
+    let needed: &[&str] = if random { &["length"] } else { &[] };
+    companions(builder, here, &entry.name, &all, needed);
+    Some(if random {
+        Counterflow::Random {
+            speed: builder.number(here, "random"),
+            length: builder.number(here, "length"),
+            seed: builder.number(here, "seed") as u64,
+        }
+    } else {
+        Counterflow::Uniform(numbers(&entry.node))
+    })
+}
+
+fn entropy<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<FirstEntropy> {
+    let fields = ["uniform", "wave"];
+    let entry = only_one(builder, here, "the entropy", |name| fields.contains(&name))?;
+    let wave = entry.name == "wave";
+    let needed: &[&str] = if wave { &["length"] } else { &[] };
+    companions(builder, here, &entry.name, &[("length", &["wave"])], needed);
+    Some(if wave {
+        FirstEntropy::Wave {
+            amplitude: builder.number(here, "wave"),
+            length: builder.number(here, "length"),
+        }
+    } else {
+        FirstEntropy::Uniform(builder.number(here, "uniform"))
+    })
 }
 
 fn material<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> MaterialOfBody {
@@ -266,7 +345,7 @@ fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
         "uniform", "rotation", "gresho", "kepler", "bending", "twist", "linear",
     ];
     let entry = only_one(builder, here, "the velocity", |name| fields.contains(&name))?;
-    let companions: [(&str, &[&str]); 8] = [
+    let all: [(&str, &[&str]); 8] = [
         ("centre", &["rotation", "gresho", "kepler"]),
         ("radius", &["gresho"]),
         ("offset", &["linear"]),
@@ -276,31 +355,12 @@ fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
         ("start", &["bending"]),
         ("height", &["twist"]),
     ];
-    for (name, owners) in companions {
-        if let Some(stray) = here.table.get(name)
-            && !owners.contains(&entry.name.as_str())
-        {
-            let owners: Vec<String> = owners.iter().map(|owner| format!("`{owner}`")).collect();
-            let owners = listed(&owners, "or");
-            builder.conflict(
-                format!("`{name}` goes with {owners}, not with `{}`", entry.name),
-                stray.key,
-                "remove it".to_owned(),
-            );
-        }
-    }
     let needed: &[&str] = match entry.name.as_str() {
         "bending" => &["wave_number", "a1", "a2"],
         "twist" => &["height"],
         _ => &[],
     };
-    for name in needed {
-        if here.table.get(name).is_none() && !here.misspells(name) {
-            let message = format!("`{}` needs `{name}`", entry.name);
-            let meaning = here.rules.key(name).map_or("", |key| key.meaning);
-            builder.missing(here, message, vec![format!("`{name}`: {meaning}")]);
-        }
-    }
+    companions(builder, here, &entry.name, &all, needed);
     Some(match entry.name.as_str() {
         "uniform" => Velocity::Uniform(numbers(&entry.node)),
         "rotation" => Velocity::Rotation {

@@ -11,6 +11,7 @@ use super::schema::Range::{Above, Any, Between};
 use super::schema::{ANY_MODEL, TableRules};
 use super::solid::{self, Solid};
 use super::step::StepRule;
+use super::superfluid::Superfluid;
 use super::viscous::Viscous;
 use super::wcsph::{Fluid, WallPotential, Water};
 use super::words::{Dimension, Integrator};
@@ -38,7 +39,7 @@ keys! {
             "water: density by summation (reversible), advanced in time, \
              or summed with a filter of noise (dissipative); elastic bodies: \
              reversible, or with the midpoint integrator of the paper; a viscous fluid \
-             (dissipative)";
+             (dissipative); superfluid helium: reversible, or with the integrator of the paper";
         integrator: Integrator = Word(Integrator::StormerVerlet.word()), Any,
             "composition of drifts and kicks in a step";
         /// The settings of the weakly compressible models.
@@ -46,6 +47,7 @@ keys! {
         fluid: Option<Fluid> = Required, Any, "what the material is";
         solid: Option<Solid> = Required, Any, "what the bodies are made of";
         viscous: Option<Viscous> = Required, Any, "what the viscous fluid is";
+        superfluid: Option<Superfluid> = Required, Any, "which helium it is";
         gravity: Gravity = Optional, Any, "which outside forces act";
         wall: Option<WallPotential> = Optional, Any, "how a conservative wall repels";
         output: Output = Optional, Any, "how much a run writes; changes no bit of it";
@@ -120,14 +122,19 @@ impl Scene {
             self.fluid.map(|fluid| fluid.reference_density),
             self.solid.map(|solid| solid.reference_density),
             self.viscous.map(|viscous| viscous.reference_density),
+            self.superfluid.map(|it| it.helium().reference_density),
         ];
         // A scene without any has a mistake, and nothing of it is used.
         of_model.into_iter().flatten().next().unwrap_or(f64::NAN)
     }
 
-    /// The speed of sound in the material, m/s: in a solid, of longitudinal waves.
+    /// The speed of sound in the material, m/s: in a solid, of longitudinal waves; in a superfluid,
+    /// of first sound.
     #[must_use]
     pub fn sound_speed(&self) -> f64 {
+        if let Some(superfluid) = self.superfluid {
+            return superfluid.helium().sound_speed;
+        }
         let fastest = self.fastest(Material::longitudinal_speed);
         // A scene without any has a mistake, and nothing of it is used.
         fastest.unwrap_or(self.fluid.map_or(f64::NAN, |fluid| fluid.sound_speed))

@@ -6,7 +6,9 @@ use crate::exit::{Failure, USAGE};
 use crate::progress::duration;
 use loschmidt_core::Fault;
 use loschmidt_runner::run::Plan;
-use loschmidt_runner::scene::{InitialState, Relaxation, Scene, Solid, Viscous, load, resolve};
+use loschmidt_runner::scene::{
+    InitialState, Relaxation, Scene, Solid, Superfluid, Viscous, load, resolve,
+};
 use loschmidt_runner::setup;
 use loschmidt_runner::{Options, Player};
 use std::process::ExitCode;
@@ -76,7 +78,9 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         line(name, verdict);
     };
     let fixed = setup::fixed_limits(player.scene());
-    let rules: &[(&str, &str)] = if player.scene().has_distortion() {
+    let rules: &[(&str, &str)] = if player.scene().superfluid.is_some() {
+        &[("acoustic", "0.4 h/u_1")]
+    } else if player.scene().has_distortion() {
         &[(
             "elastic",
             "0.4 h/sqrt(c_L² + 4 c_p²), half of the stability limit",
@@ -103,6 +107,9 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         Err(fault) => line("  force limit", format!("unknown: {fault}")),
     }
     text += &materials(player.scene());
+    if let Some(superfluid) = &player.scene().superfluid {
+        text += &helium(player.scene(), superfluid);
+    }
     if let Some(fluid) = &player.scene().viscous {
         text += &viscous(player.scene(), fluid);
     }
@@ -151,6 +158,38 @@ fn viscous(scene: &Scene, fluid: &Viscous) -> String {
             ),
         );
     }
+    text
+}
+
+/// What the helium is, and how far its waves go.
+fn helium(scene: &Scene, superfluid: &Superfluid) -> String {
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
+    let helium = superfluid.helium();
+    let (chi, t) = (helium.normal_fraction, helium.temperature);
+    line("material", format!("superfluid helium at {t} K"));
+    line("  normal component", format!("{:.2} %", 100.0 * chi));
+    line("  first sound", format!("{:.2} m/s", helium.sound_speed));
+    let second = helium.second_sound();
+    let crossing = scene.support_radius() / (second * scene.time_step());
+    line(
+        "  second sound",
+        format!("{second:.2} m/s, {crossing:.0} steps for a support radius"),
+    );
+    let slope = helium.fraction_slope;
+    if slope != 0.0 {
+        let ends = [-chi / slope, (1.0 - chi) / slope];
+        let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        line(
+            "  range of entropies",
+            format!(
+                "s0 {low:+.0} to {high:+.0} J/(kg K), s0 = {} J/(kg K)",
+                helium.entropy
+            ),
+        );
+    }
+    let operators = superfluid.operators.word();
+    line("  operators", operators.to_owned());
     text
 }
 

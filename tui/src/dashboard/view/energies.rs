@@ -6,6 +6,7 @@ use super::plot::{DotCurve, DotPlot};
 use super::{Piece, width};
 use crate::brief::brief;
 use loschmidt_runner::run::Row;
+use loschmidt_runner::setup::total_for_people;
 use loschmidt_viewer::Rgb;
 use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
@@ -80,6 +81,13 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
         relative.push((format!("{} J", error(off)), ink.text()));
     }
     pieces.push(relative);
+    for (heading, value) in &row.totals {
+        let (name, unit) = total_for_people(heading);
+        pieces.push(vec![
+            (format!("{name} "), ink.faint()),
+            (format!("{} {unit}", error(*value)), ink.text()),
+        ]);
+    }
     let used = flow(&pieces, area, buf);
     let top = area.y + 1 + used;
     let plot = Rect::new(area.x, top, area.width, area.bottom().saturating_sub(top));

@@ -1,5 +1,6 @@
 //! Numbers for people.
 
+use crate::progress::smaller_than_joule;
 pub use loschmidt_viewer::session::count;
 
 /// Steps, which may lie before the start.
@@ -60,10 +61,8 @@ fn minus(text: String) -> String {
 pub fn energy_unit(largest: f64) -> (&'static str, f64) {
     if largest >= 1e4 {
         ("kJ", 1e3)
-    } else if largest >= 1.0 || largest == 0.0 {
-        ("J", 1.0)
     } else {
-        ("mJ", 1e-3)
+        smaller_than_joule(largest)
     }
 }
 
