@@ -21,8 +21,9 @@ const ROUNDS: usize = 5;
 const WORK: f64 = 4e6;
 
 /// Elastic bodies of ten thousand particles and more: three sums of 4, 9 and 2 words in the plane,
-/// of 9, 17 and 3 in space, where water has two of 1 and 2 or 3.
-const SOLIDS: [Size; 2] = [
+/// of 9, 17 and 3 in space, where water has two of 1 and 2 or 3. Helium has four of 4, 8, 11 and 11
+/// words.
+const OTHERS: [Size; 3] = [
     Size {
         scene: "beryllium-plate",
         spacing: "2.5e-4",
@@ -33,9 +34,14 @@ const SOLIDS: [Size; 2] = [
         spacing: "0.066",
         name: "3D column 20k",
     },
+    Size {
+        scene: "second-sound-steep",
+        spacing: "1e-4",
+        name: "2D helium 10k",
+    },
 ];
 
-/// A body of the catalogue at home.
+/// A scene of the catalogue at home.
 fn body(size: Size) -> (Scene, InitialState) {
     let source = Source::Catalogue(size.scene.to_owned());
     let set = [format!("particle_spacing={}", size.spacing)];
@@ -70,7 +76,7 @@ fn main() {
             row(size, &state(size, disordered), kind, &backends);
         }
     }
-    for size in SOLIDS.into_iter().filter(wanted) {
+    for size in OTHERS.into_iter().filter(wanted) {
         row(size, &body(size), "as it begins", &backends);
     }
 }

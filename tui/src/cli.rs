@@ -106,7 +106,7 @@ impl SceneArguments {
 #[derive(Args, Debug)]
 pub struct ReproduceArguments {
     /// What to reproduce: all, or any of fig1 … fig6, table2 (with Fig. 7), kepler, claims, echo,
-    /// work; plate, column, cantilever, couette, cavity, or these five as solids
+    /// work; plate, column, cantilever, couette, cavity, or these five as solids; second-sound
     #[arg(default_value = "all", value_parser = target_names())]
     pub targets: Vec<String>,
     /// Coarser spacings: each paper within five minutes on two processors

@@ -75,6 +75,9 @@ targets! {
     /// Figs. 11 to 14 of the paper on solids.
     Cavity = "cavity", "viscous: the lid-driven cavity (Figs. 11 to 14 of the second paper)",
         targets::cavity::cavity;
+    /// Figs. 5 and 6 of the paper on superfluid helium.
+    Sound = "second-sound", "helium: second sound (Figs. 5 and 6 of the third paper)",
+        targets::sound::sound;
 }
 
 /// Names for several targets at once.

@@ -330,12 +330,12 @@ impl<A: Arithmetic, const COPY: bool, const PAPER: bool, const D: usize> PointPa
         let out = Fault::new(FaultKind::TermRange, id);
         let (fluxes, carrier) = (&read.fluxes, &read.carrier);
         let fall = self.fall.ok_or(out)?;
-        for d in 0..D {
+        for (d, fall) in fall.iter().enumerate() {
             // From each of two copies comes one half of the momentum; from a single one, all of it.
             let half = fluxes.momentum[d];
             let momentum = if PAPER { half.plus(half) } else { half };
             let own = momentum.plus(fluxes.pressure[d]);
-            write.impulse[d] = own.plus(fall[d]);
+            write.impulse[d] = own.plus(*fall);
         }
         write.inflow = fluxes.entropy;
         let u = carrier.counterflow.map(Word::real);

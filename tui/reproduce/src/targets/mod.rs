@@ -13,6 +13,7 @@ pub mod entropy;
 mod flow;
 pub mod gresho;
 pub mod plate;
+pub mod sound;
 pub mod work;
 
 use crate::lab::{Lab, LabError, Past, scene};
