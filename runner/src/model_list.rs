@@ -70,6 +70,23 @@ brings them back: write `end`",
                 help: "superfluid helium has one composition of kicks, lifts and a drift: write \
 `integrator = \"stormer-verlet\"`, or remove the key",
             }];
+            /// Superfluid helium whose normal component has friction, and which conducts heat:
+            /// dissipative.
+            SuperfluidDissipative = "superfluid-dissipative", keys superfluid,
+                made by Friction::superfluid, from helium_parameters, except [
+                Exclusion {
+                    key: "turnaround",
+                    unless: None,
+                    help: "friction takes energy and information out of the flow, and nothing \
+brings them back: write `end`, or `model = \"superfluid\"`",
+                },
+                Exclusion {
+                    key: "integrator",
+                    unless: Some("stormer-verlet"),
+                    help: "superfluid helium has one composition of kicks, lifts and a drift: \
+write `integrator = \"stormer-verlet\"`, or remove the key",
+                },
+            ];
             /// Superfluid helium with the integrator of the paper: not reversible.
             SuperfluidPaper = "superfluid-paper", keys superfluid, made by PaperSuperfluid::new,
                 from helium_parameters, except [Exclusion {

@@ -22,7 +22,9 @@ use loschmidt_core::fields::{Field, Side, state_fields};
 use loschmidt_core::integrator::{Integrator, PEFRL, STORMER_VERLET, SUZUKI};
 use loschmidt_core::model::{Measure, Model};
 use loschmidt_core::schemes::solid::{Midpoint, Relaxing, Solid, Viscous};
-use loschmidt_core::schemes::superfluid::{PaperSuperfluid, Superfluid};
+use loschmidt_core::schemes::superfluid::{
+    DissipativeSuperfluid, Friction, PaperSuperfluid, Superfluid,
+};
 use loschmidt_core::schemes::wcsph::{
     AntiClump, Central, DensityCorrection, Filter, Gravity, StateEquation, Wall,
 };
@@ -107,6 +109,9 @@ macro_rules! declared {
             (Some(_), ..) => <Solid<Fixed, 3> as Model<Fixed, 3>>::$what,
             (None, Some(_), _) if plane => <Viscous<Fixed, 2> as Model<Fixed, 2>>::$what,
             (None, Some(_), _) => <Viscous<Fixed, 3> as Model<Fixed, 3>>::$what,
+            (None, None, Some(_)) if $scene.model == scene::Model::SuperfluidDissipative => {
+                <DissipativeSuperfluid<Fixed, 2> as Model<Fixed, 2>>::$what
+            }
             (None, None, Some(_)) => <Superfluid<Fixed, 2> as Model<Fixed, 2>>::$what,
             (None, None, None) => <Symplectic<Fixed, 2> as Model<Fixed, 2>>::$what,
         }

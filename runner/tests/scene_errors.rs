@@ -88,7 +88,7 @@ fn a_mistake_in_an_override_is_shown_in_the_override() {
         ),
         (
             "model=standart",
-            "error: `model` cannot be \"standart\"\n --> --set\n  |\n  | model=standart\n  |       ^^^^^^^^\nhelp: did you mean \"standard\"?\nhelp: allowed: \"symplectic\", \"standard\", \"filtered\", \"solid\", \"solid-midpoint\", \"viscous\", \"superfluid\" or \"superfluid-paper\"",
+            "error: `model` cannot be \"standart\"\n --> --set\n  |\n  | model=standart\n  |       ^^^^^^^^\nhelp: did you mean \"standard\"?\nhelp: allowed: \"symplectic\", \"standard\", \"filtered\", \"solid\", \"solid-midpoint\", \"viscous\", \"superfluid\", \"superfluid-dissipative\" or \"superfluid-paper\"",
         ),
         (
             "particle_spacing.x=1",

@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 /// Golden values, each with a line in the changelog when it changes. Small editions of the scenes:
 /// name, what is set, steps, digests at home and after them.
-const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 4] = [
+const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 5] = [
     (
         "second-sound",
         &["particle_spacing=0.0005"],
@@ -48,6 +48,30 @@ const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 4] = [
             "60811c0a27f682ef3e16d2f8564938e8",
         ],
     ),
+    (
+        "second-sound",
+        &[
+            "particle_spacing=0.0005",
+            "model=superfluid-dissipative",
+            "turnaround=",
+            "end=1e-3",
+            "superfluid.viscosity=1e-3",
+            "superfluid.diffusion=50",
+        ],
+        100,
+        [
+            "64569bcf3fcee3bb9ad455dcdeee4635",
+            "5cab135d76294804f7dfae00478b54c5",
+        ],
+    ),
+];
+
+/// What gives the scene of second sound friction.
+const FRICTION: [&str; 4] = [
+    "model=superfluid-dissipative",
+    "turnaround=",
+    "superfluid.viscosity=1e-3",
+    "superfluid.diffusion=50",
 ];
 
 fn golden(n: usize) -> (Scene, u64, [&'static str; 2]) {
@@ -90,6 +114,11 @@ fn golden_digests_of_steep_second_sound_on_every_executor() {
 #[test]
 fn golden_digests_of_counterflow_on_every_executor() {
     check(2, true);
+}
+
+#[test]
+fn golden_digests_of_helium_with_friction_on_every_executor() {
+    check(4, false);
 }
 
 #[test]
@@ -181,11 +210,38 @@ fn energy_is_kept_ten_thousand_times_better_than_by_the_papers_integrator() {
     assert!(separation.largest > 0.0 && separation.last == 0.0);
 }
 
+/// What the wave loses, the heat has; entropy never falls, and the copies stay together.
+#[test]
+fn friction_turns_second_sound_into_heat() {
+    let mut set = vec!["particle_spacing=0.0004", "end=1.5e-3"];
+    set.extend(FRICTION);
+    let (outcome, rows) = run(scene("second-sound", &set), fastest(2));
+    assert_eq!(outcome.reversed_exactly, None);
+    assert!(outcome.momentum.exactly_constant);
+    let last = rows.last().unwrap();
+    assert!(rows[0].energy("heat").abs() < 1e-9 * waves(&rows));
+    let heat = last.energy("heat");
+    println!(
+        "heat {heat:e} of {:e}, error {:e}",
+        waves(&rows),
+        outcome.energy.max_error
+    );
+    assert!(heat > 0.03 * waves(&rows));
+    assert!(outcome.energy.max_error < permitted::ENERGY_OF_FRICTION * heat);
+    let entropy = |row: &Row| row.total_of("thermodynamic_entropy_J_per_K").unwrap();
+    assert!(
+        rows.windows(2)
+            .all(|pair| entropy(&pair[1]) >= entropy(&pair[0]))
+    );
+    let separation = &outcome.totals["separation_of_counterflow_m_per_s"];
+    assert!(separation.largest < 1e-9, "{}", separation.largest);
+}
+
 /// A saved state goes on with another executor as if nothing had happened: that of the paper's
 /// integrator too, whose first half kick takes what the last step has kept.
 #[test]
 fn saved_helium_goes_on() {
-    for n in [1, 3] {
+    for n in [1, 3, 4] {
         let (scene, steps, digests) = golden(n);
         let mut first = player(scene.clone(), serial());
         first.advance(steps / 2).unwrap();

@@ -2,9 +2,11 @@
 
 use loschmidt_core::number::Quantity;
 use loschmidt_core::schemes::superfluid::{
-    ENTROPY, ENTROPY_COPY, Helium, Operators, PaperSuperfluid, Superfluid,
+    DissipativeSuperfluid, ENTROPY, ENTROPY_COPY, Friction, Helium, HeliumParameters, Operators,
+    PaperSuperfluid, Superfluid,
 };
 use loschmidt_core::{Diagnostics, FaultKind, Fixed, Model, Reversibility, Serial};
+use loschmidt_runner::GivenField;
 use loschmidt_runner::scene::InitialState;
 use loschmidt_tests::conformance::{self, Plain};
 use loschmidt_tests::helium::{SPACING, drop, stirred};
@@ -241,4 +243,130 @@ fn cube_roots_are_those_of_the_library() {
         assert!(error.abs() < permitted::CUBE_ROOT, "{x}: {error:e}");
     }
     assert_eq!(loschmidt_core::number::root::<3>(1.0), 1.0);
+}
+
+fn rubbing<const D: usize>() -> DissipativeSuperfluid<Fixed, D> {
+    let mut parameters = drop::<D>(Operators::Renormalised);
+    parameters.viscosity = 1e-3;
+    parameters.diffusion = 20.0;
+    Friction::superfluid(parameters).unwrap()
+}
+
+#[test]
+fn with_friction_every_executor_leaves_the_bits_of_the_plain_steps() {
+    let state = stirred([14, 11], 2.0, 0.05, 10);
+    conformance::check(rubbing::<2>, &state, &[1, 2, 12]).unwrap_or_else(|e| panic!("{e}"));
+    let state = stirred([7, 6, 5], 2.0, 0.05, 11);
+    conformance::check(rubbing::<3>, &state, &[1, 2, 8]).unwrap_or_else(|e| panic!("{e}"));
+    let of = <DissipativeSuperfluid<Fixed, 2> as Model<Fixed, 2>>::REVERSIBILITY;
+    assert_eq!(of, Reversibility::Dissipative);
+}
+
+#[test]
+fn friction_keeps_momentum_and_energy_and_makes_entropy() {
+    fn check<const D: usize>(counts: [usize; D], each: u64) {
+        // Short steps: the reversible part, of second order, loses little.
+        let mut parameters = rubbing::<D>().0.liquid().parameters().clone();
+        parameters.time_step *= 0.02;
+        let model = Friction::superfluid(parameters).unwrap();
+        let mut drop = plain(model, &stirred(counts, 2.0, 0.05, 12));
+        let first = look(&mut drop).0;
+        let mut before = first.clone();
+        let entropy = |seen: &Diagnostics| seen.totals.get("thermodynamic entropy").unwrap();
+        for _ in 0..10 {
+            steps(&mut drop, each);
+            let now = look(&mut drop).0;
+            assert_eq!(now.momentum_quanta, first.momentum_quanta);
+            assert!(entropy(&now) > entropy(&before));
+            before = now;
+        }
+        let heat = before.energies.get("heat") - first.energies.get("heat");
+        let total = before.energies.total() - first.energies.total();
+        println!("heat {heat:e} J, error {total:e} J");
+        assert!(heat > 0.0);
+        assert!(
+            (total / heat).abs() < permitted::ENERGY_OF_FRICTION,
+            "{total:e} of {heat:e}"
+        );
+        // The copies are one but for a quantum of each step.
+        assert!(before.totals.get("separation of counterflow").unwrap() < 1e-2);
+    }
+    check([12, 10], 20);
+    check([6, 5, 4], 10);
+}
+
+/// Helium that is all normal, without waves of second sound.
+fn normal(viscosity: f64, diffusion: f64) -> HeliumParameters<2> {
+    let mut parameters = drop::<2>(Operators::Paper);
+    // On a square lattice the sum of friction is isotropic for wide kernels alone.
+    parameters.support_radius = 6.0 * SPACING;
+    parameters.helium.normal_fraction = 1.0;
+    parameters.helium.fraction_slope = 0.0;
+    parameters.viscosity = viscosity;
+    parameters.diffusion = diffusion;
+    parameters
+}
+
+/// The rate at which a wave along y decays inside of a square, over that of the continuum.
+fn decay(parameters: HeliumParameters<2>, rate: f64, field: &'static str) -> f64 {
+    let mut state = loschmidt_tests::bodies::block([54, 54]);
+    let factor = SPACING / loschmidt_tests::bodies::SPACING;
+    let k = 2.0 * std::f64::consts::PI / (40.0 * SPACING);
+    let mut entropies = Vec::new();
+    for (x, v) in state.fluid.iter_mut().zip(&mut state.fluid_velocity) {
+        *x = x.map(|x| x * factor);
+        let wave = (k * x[1]).sin();
+        if field == "velocity" {
+            v[0] = 1e-3 * wave;
+        }
+        entropies.push([if field == "entropy" { 1e-3 * wave } else { 0.0 }, 0.0, 0.0]);
+    }
+    state.given.push(GivenField {
+        name: "entropy",
+        values: entropies,
+    });
+    let (step, quantum) = (parameters.time_step, parameters.scale.speed_quantum());
+    let mut drop = plain(Friction::superfluid(parameters).unwrap(), &state);
+    let amplitude = |drop: &mut Plain<DissipativeSuperfluid<Fixed, 2>, 2>| {
+        let (_, system) = drop.parts();
+        let [mut product, mut square] = [0.0; 2];
+        for (place, id) in system.particles.id.iter().enumerate() {
+            let x = state.fluid[*id as usize];
+            if x[0].abs().max(x[1].abs()) > 15.0 * SPACING {
+                continue;
+            }
+            let wave = (k * x[1]).sin();
+            let value = if field == "velocity" {
+                system.particles.velocity()[place][0].quanta() * quantum
+            } else {
+                system.particles.words(ENTROPY)[place].quanta()
+            };
+            product += wave * value;
+            square += wave * wave;
+        }
+        product / square
+    };
+    let first = amplitude(&mut drop);
+    // Faces act on what is within two supports of them.
+    let count = 5;
+    steps(&mut drop, count);
+    let last = amplitude(&mut drop);
+    (first / last).ln() / (count as f64 * step) / (rate * k * k)
+}
+
+#[test]
+fn a_shear_wave_and_a_wave_of_warmth_decay_as_they_should() {
+    let helium = Helium::AT_1_90_K;
+    let viscosity = 1e-3;
+    let shear = decay(
+        normal(viscosity, 0.0),
+        viscosity / helium.reference_density,
+        "velocity",
+    );
+    let diffusion = 500.0;
+    let capacity = helium.reference_density * helium.heat_capacity / helium.temperature;
+    let warmth = decay(normal(0.0, diffusion), diffusion / capacity, "entropy");
+    println!("of the decay: shear {shear}, warmth {warmth}");
+    assert!((shear - 1.0).abs() < permitted::DECAY, "{shear}");
+    assert!((warmth - 1.0).abs() < permitted::DECAY, "{warmth}");
 }

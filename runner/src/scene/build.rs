@@ -34,6 +34,7 @@ pub(super) fn build(spec: &SceneSpec) -> Result<Scene, SceneError> {
     forces(&mut builder, top, &scene);
     bodies(&mut builder, top, &mut scene);
     relaxation(&mut builder, top, &scene);
+    friction(&mut builder, top, &scene);
     builder.finish(scene)
 }
 
@@ -171,6 +172,37 @@ fn relaxation<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
                  or write `relaxation = \"exact\"`"
             ),
         );
+    }
+}
+
+/// Friction where the model has none.
+fn friction<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
+    let Some(superfluid) = scene.superfluid else {
+        return;
+    };
+    if scene.model == Model::SuperfluidDissipative {
+        return;
+    }
+    let table = top.table.get("superfluid");
+    let table = table.and_then(|entry| as_table(&entry.node));
+    for (name, value) in [
+        ("viscosity", superfluid.viscosity),
+        ("diffusion", superfluid.diffusion),
+    ] {
+        if let Some(entry) = table.and_then(|table| table.get(name))
+            && value > 0.0
+        {
+            builder.conflict(
+                format!(
+                    "`{name}` does not go with `model = \"{}\"`",
+                    scene.model.word()
+                ),
+                entry.key,
+                "it takes energy and information out of the flow: write \
+                 `model = \"superfluid-dissipative\"`, or remove it"
+                    .to_owned(),
+            );
+        }
     }
 }
 

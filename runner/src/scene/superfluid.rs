@@ -4,8 +4,8 @@
 use super::declare::keys;
 use super::geometry::Vector3;
 use super::schema::Family;
-use super::schema::IfAbsent::{Optional, Word};
-use super::schema::Range::{Above, AboveUpTo, Any};
+use super::schema::IfAbsent::{Number, Optional, Word};
+use super::schema::Range::{Above, AboveUpTo, Any, AtLeast};
 use super::words::words;
 use crate::random::SplitMix64;
 use loschmidt_core::schemes::superfluid as core;
@@ -39,6 +39,11 @@ keys! {
         operators: Operators = Word(Operators::Renormalised.word()), Any,
             "gradient of the temperature and divergence of the entropy flux: exact for linear \
              fields, or the simple sums of the paper, with which second sound is too slow";
+        viscosity: f64 = Number(0.0), AtLeast(0.0),
+            "mu, the viscosity of the normal component (superfluid-dissipative)", "Pa s";
+        diffusion: f64 = Number(0.0), AtLeast(0.0),
+            "beta of the entropy's diffusion, beta/rho times the Laplacian of T \
+             (superfluid-dissipative)", "W/(m K²)";
         separation: Option<f64> = Optional, Above(0.0),
             "how far the two copies of the counterflow may come apart before the run ends", "m/s";
     }

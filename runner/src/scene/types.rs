@@ -39,7 +39,8 @@ keys! {
             "water: density by summation (reversible), advanced in time, \
              or summed with a filter of noise (dissipative); elastic bodies: \
              reversible, or with the midpoint integrator of the paper; a viscous fluid \
-             (dissipative); superfluid helium: reversible, or with the integrator of the paper";
+             (dissipative); superfluid helium: reversible, with friction (dissipative), or with the \
+             integrator of the paper";
         integrator: Integrator = Word(Integrator::StormerVerlet.word()), Any,
             "composition of drifts and kicks in a step";
         /// The settings of the weakly compressible models.

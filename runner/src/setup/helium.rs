@@ -1,7 +1,7 @@
 //! From a scene of superfluid helium to the parameters of its models.
 
 use super::{Bounds, fastest, first, largest, max_buckets};
-use crate::scene::{InitialState, Scene};
+use crate::scene::{InitialState, Scene, Vector3};
 use loschmidt_core::Scale;
 use loschmidt_core::observe::BINS;
 use loschmidt_core::schemes::superfluid::{Helium, HeliumParameters, Operators};
@@ -25,6 +25,9 @@ pub fn helium_parameters<const D: usize>(
         time_step: scene.time_step(),
         helium,
         operators: superfluid.map_or(Operators::default(), |it| it.operators()),
+        first_excess: initial.given("entropy").map_or(0.0, mean),
+        viscosity: superfluid.map_or(0.0, |it| it.viscosity),
+        diffusion: superfluid.map_or(0.0, |it| it.diffusion),
         most_separation: superfluid
             .and_then(|it| it.separation)
             .unwrap_or(f64::INFINITY),
@@ -38,6 +41,12 @@ pub fn helium_parameters<const D: usize>(
         extent: first(bounds.extent),
         max_buckets: max_buckets(initial.fluid.len()),
     }
+}
+
+/// The mean of a scalar.
+fn mean(values: &[Vector3]) -> f64 {
+    let sum: f64 = values.iter().map(|x| x[0]).sum();
+    sum / values.len().max(1) as f64
 }
 
 /// The speeds that helium comes to, m/s.

@@ -11,6 +11,9 @@ use loschmidt_core::schemes::wcsph::Wall;
 /// - `acoustic`: 0.4 h/c. Störmer–Verlet lost the dam break at 0.6 and kept it at 0.4.
 /// - `elastic`, in its place where particles carry a distortion: 0.4 h/sqrt(c_L² + 4 c_p²). The undeformed lattices of the
 ///   scene language are stable up to 0.88, for any support from 2.4 to 4 spacings.
+/// - `viscous` and `conductive`, of helium with friction: 0.125 h²/ν for the paper's h, half of the
+///   support, with ν = μ/(χ_n ρ0) and β T0/(C ρ0) (Morris, Fox & Zhu, J. Comput. Phys. 136 (1997)
+///   214).
 /// - `wall`: 0.5 r_wall/sqrt(2 E). Near r_wall the conservative wall is a spring of frequency
 ///   sqrt(2 E)/r_wall, stable for time steps up to four times this.
 #[must_use]
@@ -22,6 +25,21 @@ pub fn fixed_limits(scene: &Scene) -> Vec<(&'static str, f64)> {
         "acoustic"
     };
     let mut limits = vec![(name, acoustic)];
+    if let Some(superfluid) = scene.superfluid {
+        let (helium, h) = (superfluid.helium(), 0.5 * scene.support_radius());
+        let capacity = helium.reference_density * helium.heat_capacity / helium.temperature;
+        for (name, coefficient) in [
+            (
+                "viscous",
+                superfluid.viscosity / (helium.normal_fraction * helium.reference_density),
+            ),
+            ("conductive", superfluid.diffusion / capacity),
+        ] {
+            if coefficient > 0.0 {
+                limits.push((name, 0.125 * h * h / coefficient));
+            }
+        }
+    }
     if let Wall::Conservative { energy, radius, .. } = wall(scene) {
         limits.push(("wall", 0.5 * radius / (2.0 * energy).sqrt()));
     }

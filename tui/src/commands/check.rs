@@ -79,7 +79,17 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     };
     let fixed = setup::fixed_limits(player.scene());
     let rules: &[(&str, &str)] = if player.scene().superfluid.is_some() {
-        &[("acoustic", "0.4 h/u_1")]
+        &[
+            ("acoustic", "0.4 h/u_1"),
+            (
+                "viscous",
+                "0.125 h²/nu for the paper's h, nu = mu/(chi_n rho0)",
+            ),
+            (
+                "conductive",
+                "0.125 h²/nu for the paper's h, nu = beta T0/(C rho0)",
+            ),
+        ]
     } else if player.scene().has_distortion() {
         &[(
             "elastic",
@@ -99,7 +109,10 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
             .iter()
             .find(|(n, _)| *n == name)
             .map(|(_, limit)| *limit);
-        limit(&format!("  {name} limit"), of_name, rule);
+        // Helium without friction has no limits of it.
+        if of_name.is_some() || player.scene().superfluid.is_none() {
+            limit(&format!("  {name} limit"), of_name, rule);
+        }
     }
     let rule = "0.25 sqrt(h/a), a the largest acceleration at the start";
     match limits {

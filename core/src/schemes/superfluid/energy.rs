@@ -5,8 +5,10 @@
 //! - thermal        Σ m T0 x²/(2C), x = s - s0
 //! - gravitational  -Σ m g·x, zero at the origin
 //!
-//! as eq. (15) has them, but for T0 Σ m x: that is the entropy of the whole times a constant, and
-//! no scheme of this module changes it. Where the state is held twice, these are of the mean.
+//! as eq. (15) has them, but for T0 Σ m x: that is the entropy of the whole times a constant, which
+//! friction alone changes; there it is counted as heat, from the
+//! start on. Where the state is held twice, all of these
+//! are of the mean.
 
 use super::fields::{COUNTERFLOW, COUNTERFLOW_COPY, DENSITY, ENTROPY, ENTROPY_COPY, ONE, SUMS};
 use super::parameters::{HeliumParameters, Operators};
@@ -27,6 +29,19 @@ pub(super) const NAMES: &[&str] = &[
     "thermal",
     "gravitational",
 ];
+
+/// The same, and the heat: T0 Σ m x, which friction makes.
+pub(super) const NAMES_WITH_HEAT: &[&str] = &[
+    "kinetic",
+    "counterflow",
+    "compression",
+    "thermal",
+    "gravitational",
+    "heat",
+];
+
+/// Place of the heat among them.
+pub(super) const HEAT: usize = 5;
 
 const fn measure(name: &'static str, unit: &'static str) -> Measure {
     Measure { name, unit }
@@ -121,8 +136,7 @@ pub(super) fn energies<A: Arithmetic, const TWICE: bool, const D: usize>(
 ) -> Result<[f64; MAX_ENERGIES], Fault> {
     let (set, helium) = (system.particles.view(), &p.helium);
     // Waves of second sound are as energetic as this times their amplitude's square.
-    let unit = helium.second_sound().max(1e-3 * helium.sound_speed);
-    let unit = unit * unit;
+    let unit = p.heat_speed() * p.heat_speed();
     let mut sums = [ExactSum::default(); 3];
     let mut faults: Option<Fault> = None;
     for place in 0..set.id.len() {
@@ -154,6 +168,20 @@ pub(super) fn energies<A: Arithmetic, const TWICE: bool, const D: usize>(
         energies[4] -= p.mass() * g * (sum as f64 * p.scale.length_quantum());
     }
     Ok(energies)
+}
+
+/// T0 Σ m x of both copies' mean, less what it was at the start, J.
+pub(super) fn heat<A: Arithmetic, const D: usize>(
+    p: &HeliumParameters<D>,
+    system: &System<'_, A, D>,
+) -> f64 {
+    let set = system.particles.view();
+    let words = set.words(ENTROPY).iter().chain(set.words(ENTROPY_COPY));
+    let twice: i128 = words.map(|s| i128::from(s.whole_quanta())).sum();
+    let first = (p.first_excess * ONE) * (2 * set.id.len()) as f64;
+    let twice = twice - libm::rint(first) as i128;
+    let unit = p.mass() * p.helium.temperature * p.helium.entropy / (2.0 * ONE);
+    twice as f64 * unit
 }
 
 /// Σ m s, and how far the copies are apart at most, in the order of [`TOTALS`].

@@ -30,13 +30,28 @@ pub const INFLOW: usize = 13;
 pub const COUNTERFLOW_COPY: usize = 14;
 /// S, the second copy of s. The reversible model alone.
 pub const ENTROPY_COPY: usize = 15;
-/// dv and du of a whole step, kept from the end of the last one. The paper's integrator alone.
+/// What friction needs of a particle, as [`Normal`](super::friction::Normal) has it. With friction.
+pub const NORMAL: usize = 16;
+/// Impulse of friction and conducted heat, as [`Rubbed`](super::friction::Rubbed) has them. With
+/// friction.
+pub const RUBBED: usize = 17;
+/// What the heat of friction needs, as [`Rubbing`](super::friction::Rubbing) has it. With friction.
+pub const RUBBING: usize = 18;
+/// Heat that a particle receives, per mass. With friction.
+pub const HEAT: usize = 19;
+/// dv and du of half a step, kept from the end of the last one. The paper's integrator alone.
 pub const RATES: usize = 14;
 
 /// Entropies and sums over positions count 2^-48: they, or one term, are kept below 8.
 pub(super) const PURE: Quantum = Quantum::Pure(48);
 /// Sums over dt times velocities count 2^-50: one term is kept below 2.
 pub(super) const RATE: Quantum = Quantum::Pure(50);
+/// Heats per mass count 2^-50 of the square of [`HeliumParameters::heat_speed`].
+///
+/// [`HeliumParameters::heat_speed`]: super::HeliumParameters::heat_speed
+pub(super) const WARMTH: Quantum = Quantum::Pure(50);
+/// 1 in quanta of [`WARMTH`].
+pub(super) const ONE_WARMTH: f64 = (1u64 << 50) as f64;
 /// 1 in quanta of [`PURE`].
 pub(super) const ONE: f64 = (1u64 << 48) as f64;
 /// 1 in quanta of [`RATE`].
@@ -94,6 +109,20 @@ pub(super) const FIELDS: [Field; 16] = {
         f += 1;
     }
     all[ENTROPY_COPY] = Field::state("entropy copy", Scalar, PURE, Even);
+    all
+};
+
+/// The fields of the reversible model, and what friction needs.
+pub(super) const FIELDS_OF_FRICTION: [Field; 20] = {
+    let mut all = [Field::scratch("heat", Scalar, WARMTH); 20];
+    let mut f = 0;
+    while f < FIELDS.len() {
+        all[f] = FIELDS[f];
+        f += 1;
+    }
+    all[NORMAL] = Field::scratch("normal flow", Several { plane: 4, space: 5 }, Real);
+    all[RUBBED] = Field::scratch("rubbed", Several { plane: 3, space: 4 }, Speed);
+    all[RUBBING] = Field::scratch("rubbing", Several { plane: 5, space: 7 }, Real);
     all
 };
 

@@ -48,6 +48,11 @@ impl<const D: usize> Liquid<D> {
         &self.settings
     }
 
+    /// The kernel and where it ends.
+    pub(super) fn reach(&self) -> Reach {
+        self.reach
+    }
+
     /// V0 times a duration of c time steps.
     fn share(&self, c: f64) -> f64 {
         (c * self.parameters.time_step) * self.parameters.volume()

@@ -1,13 +1,15 @@
 //! Superfluid helium as one fluid with two motions (model C).
 //!
 //! [`Superfluid`] is the scheme that returns to its first bit, [`PaperSuperfluid`] the paper's own
-//! integrator, with which it is compared. [`Helium`] holds the constitutive laws, [`Operators`] says
+//! integrator, with which it is compared. In a [`DissipativeSuperfluid`] the normal component has
+//! friction. [`Helium`] holds the constitutive laws, [`Operators`] says
 //! which gradients are taken.
 //!
 //! Source: Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124.
 
 mod energy;
 mod fields;
+mod friction;
 mod helium;
 mod liquid;
 mod paper;
@@ -18,11 +20,14 @@ mod updates;
 
 pub use fields::{
     CARRIER, COUNTERFLOW, COUNTERFLOW_COPY, DENSITY, DENSITY_CONSTANT, ENTROPY, ENTROPY_COPY,
-    FLUXES, GRADIENT, INFLOW, INVERSE, PULL, RATES, SUMS,
+    FLUXES, GRADIENT, HEAT, INFLOW, INVERSE, NORMAL, PULL, RATES, RUBBED, RUBBING, SUMS,
+};
+pub use friction::{
+    DissipativeSuperfluid, Friction, FrictionPass, HeatPass, Normal, Rubbed, Rubbing,
 };
 pub use helium::Helium;
 pub use liquid::Liquid;
 pub use paper::PaperSuperfluid;
 pub use parameters::{HeliumParameters, Operators};
 pub use passes::{Carrier, FluxPass, Fluxes, GradientPass, Sums, SumsPass};
-pub use reversible::Superfluid;
+pub use reversible::{Doubled, Superfluid};

@@ -29,6 +29,12 @@ pub struct HeliumParameters<const D: usize> {
     pub helium: Helium,
     /// The operators.
     pub operators: Operators,
+    /// μ, the viscosity of the normal component, Pa s. With friction alone.
+    pub viscosity: f64,
+    /// β, the diffusion of heat, W/(m K²): entropy diffuses by β ΔT/ρ. With friction alone.
+    pub diffusion: f64,
+    /// The mean of (s - s0)/s0 at the start, from which heat is counted. With friction alone.
+    pub first_excess: f64,
     /// The distance |w - W|, m/s, at which the two copies of the counterflow are too far apart to
     /// mean anything; infinite where that is no error.
     pub most_separation: f64,
@@ -55,6 +61,14 @@ impl<const D: usize> HeliumParameters<D> {
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.helium.reference_density * self.volume()
+    }
+
+    /// The speed whose square is the unit of heats, m/s: that of second sound, or where the
+    /// superfluid component is missing a thousandth of first sound.
+    #[must_use]
+    pub fn heat_speed(&self) -> f64 {
+        let helium = &self.helium;
+        helium.second_sound().max(1e-3 * helium.sound_speed)
     }
 
     /// What every model says of itself.
@@ -109,6 +123,13 @@ impl<const D: usize> HeliumParameters<D> {
         )?;
         accept("fraction_slope", helium.fraction_slope, true)?;
         positive("speed_bin", self.speed_bin)?;
+        accept(
+            "first_excess",
+            self.first_excess,
+            self.first_excess.abs() < 8.0,
+        )?;
+        accept("viscosity", self.viscosity, self.viscosity >= 0.0)?;
+        accept("diffusion", self.diffusion, self.diffusion >= 0.0)?;
         // An infinite bound is none.
         let separation = self.most_separation;
         if separation.is_nan() || separation <= 0.0 {

@@ -24,7 +24,7 @@
 //! Phys. Rev. E 94 (2016) 043303.
 
 use super::energy;
-use super::fields::FIELDS;
+use super::fields::{FIELDS, FIELDS_OF_FRICTION};
 use super::liquid::Liquid;
 use super::parameters::HeliumParameters;
 use super::updates::{self, SetCopies, Stretch};
@@ -39,13 +39,17 @@ use crate::system::System;
 use core::marker::PhantomData;
 
 /// Superfluid helium ("model C"), reversible.
+pub type Superfluid<A, const D: usize> = Doubled<A, D, false>;
+
+/// Superfluid helium whose state is held twice; with `FRICTION` its particles have room for what
+/// friction needs, and its energies count the heat.
 #[derive(Clone, Debug)]
-pub struct Superfluid<A: Arithmetic, const D: usize> {
+pub struct Doubled<A: Arithmetic, const D: usize, const FRICTION: bool> {
     liquid: Liquid<D>,
     of: PhantomData<A>,
 }
 
-impl<A: Arithmetic, const D: usize> Superfluid<A, D> {
+impl<A: Arithmetic, const D: usize, const FRICTION: bool> Doubled<A, D, FRICTION> {
     /// Helium with these parameters.
     ///
     /// # Errors
@@ -82,9 +86,17 @@ impl<A: Arithmetic, const D: usize> Superfluid<A, D> {
     }
 }
 
-impl<A: Arithmetic, const D: usize> Model<A, D> for Superfluid<A, D> {
-    const FIELDS: &'static [Field] = &FIELDS;
-    const ENERGIES: &'static [&'static str] = energy::NAMES;
+impl<A: Arithmetic, const D: usize, const FRICTION: bool> Model<A, D> for Doubled<A, D, FRICTION> {
+    const FIELDS: &'static [Field] = if FRICTION {
+        &FIELDS_OF_FRICTION
+    } else {
+        &FIELDS
+    };
+    const ENERGIES: &'static [&'static str] = if FRICTION {
+        energy::NAMES_WITH_HEAT
+    } else {
+        energy::NAMES
+    };
     const COLUMNS: &'static [Measure] = energy::COLUMNS;
     const TOTALS: &'static [Measure] = energy::TOTALS;
 
@@ -167,7 +179,12 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Superfluid<A, D> {
     }
 
     fn energies(&self, system: &System<'_, A, D>) -> Result<[f64; MAX_ENERGIES], Fault> {
-        energy::energies::<A, true, D>(self.liquid.parameters(), system)
+        let p = self.liquid.parameters();
+        let mut energies = energy::energies::<A, true, D>(p, system)?;
+        if FRICTION {
+            energies[energy::HEAT] = energy::heat(p, system);
+        }
+        Ok(energies)
     }
 
     fn totals(&self, system: &System<'_, A, D>) -> [f64; MAX_TOTALS] {

@@ -88,7 +88,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
             (format!("{} {unit}", error(*value)), ink.text()),
         ]);
     }
-    let used = flow(&pieces, area, buf);
+    let used = flow(&pieces, row.totals.len(), area, buf);
     let top = area.y + 1 + used;
     let plot = Rect::new(area.x, top, area.width, area.bottom().saturating_sub(top));
     draw(stage, scale, &parts, plot, buf, ink);
@@ -114,10 +114,11 @@ fn parts(row: &Row, ink: &Ink) -> Vec<EnergyCurve> {
     kinds.map(part).chain([total]).collect()
 }
 
-/// Writes groups of pieces in rows below the title; how many rows it took.
-fn flow(groups: &[Vec<Piece>], area: Rect, buf: &mut Buffer) -> u16 {
+/// Writes groups of pieces in rows below the title, a row more for each of these totals where there
+/// is room; how many rows it took.
+fn flow(groups: &[Vec<Piece>], totals: usize, area: Rect, buf: &mut Buffer) -> u16 {
     let most = if area.height >= 12 {
-        3
+        3 + if area.height >= 16 { totals as u16 } else { 0 }
     } else {
         (area.height / 3).min(2)
     };
