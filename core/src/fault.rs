@@ -23,6 +23,9 @@ pub enum FaultKind {
              reference temperature"
     )]
     NormalFraction,
+    /// The temperature is not positive.
+    #[error("its temperature is not positive: its entropy is too low or its counterflow too fast")]
+    Temperature,
     /// The two copies of the counterflow are farther apart than the bound.
     #[error("the two copies of its counterflow are farther apart than the scene allows")]
     CopiesApart,

@@ -370,3 +370,18 @@ fn a_shear_wave_and_a_wave_of_warmth_decay_as_they_should() {
     assert!((shear - 1.0).abs() < permitted::DECAY, "{shear}");
     assert!((warmth - 1.0).abs() < permitted::DECAY, "{warmth}");
 }
+
+#[test]
+fn temperatures_below_zero_end_the_run() {
+    let mut parameters = drop::<2>(Operators::Paper);
+    // s0 - C is above 0.
+    parameters.helium.heat_capacity = 100.0;
+    parameters.helium.fraction_slope = 0.0;
+    let mut state = stirred::<2>([8, 8], 0.0, 0.0, 13);
+    let entropy = state.given.iter_mut().find(|field| field.name == "entropy");
+    entropy.expect("given").values[5] = [-0.2, 0.0, 0.0];
+    let mut drop = plain(Superfluid::<Fixed, 2>::new(parameters).unwrap(), &state);
+    let (model, mut system) = drop.parts();
+    let fault = model.step(&mut system, &Serial).expect_err("too cold");
+    assert_eq!((fault.kind, fault.particle), (FaultKind::Temperature, 5));
+}

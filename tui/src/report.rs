@@ -40,7 +40,7 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
         let (name, unit) = total_for_people(heading);
         line(&name, &|row| {
             row.total_of(heading)
-                .map_or(String::new(), |x| format!("{x:.6e} {unit}"))
+                .map_or(String::new(), |x| format!("{x:.9e} {unit}"))
         });
     }
     line("entropy", &|row| format!("{:.4}", row.entropy));
@@ -98,7 +98,8 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
 /// Writes energies whose largest is this: in J, or where that is little in a smaller unit.
 fn joules(largest: f64) -> impl Fn(f64) -> String {
     let (unit, scale) = smaller_than_joule(largest);
-    move |energy| format!("{:.3} {unit}", energy / scale)
+    // Nothing is nothing, from below as well.
+    move |energy| format!("{:.3} {unit}", (1e3 * energy / scale).round() / 1e3 + 0.0)
 }
 
 /// Why a run cannot be expected to return.

@@ -15,6 +15,7 @@ use super::viscous::Relaxation;
 use super::wcsph::WallModel;
 use super::words::{Dimension, RegionKind};
 use loschmidt_core::schemes::solid::{MAX_BODIES, MAX_PARTS, MOST_OF_PAPER};
+use loschmidt_core::schemes::superfluid::Helium;
 
 /// The most steps of a leg; every count below it is an exact f64.
 const MOST_STEPS: u64 = 1 << 48;
@@ -175,12 +176,44 @@ fn relaxation<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
     }
 }
 
+/// First entropies at which there is no such helium.
+fn entropies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene, helium: &Helium) {
+    let nodes = top.table.get("region").map(|entry| elements(&entry.node));
+    for (node, region) in nodes.into_iter().flatten().zip(&scene.regions) {
+        let entry = as_table(node).and_then(|table| table.get("entropy"));
+        let (Some(entry), Some(entropy)) = (entry, region.entropy) else {
+            continue;
+        };
+        let wrong = |x: &f64| {
+            let normal = helium.normal_fraction_at(*x);
+            !(normal > 0.0 && normal <= 1.0) || helium.temperature + helium.warming(*x, 0.0) <= 0.0
+        };
+        if let Some(x) = entropy.extremes(helium.entropy).into_iter().find(wrong) {
+            builder.out_of_range(
+                format!(
+                    "there is no such helium at an entropy of {:.1} J/(kg K)",
+                    helium.entropy + x
+                ),
+                entry.key,
+                format!(
+                    "its normal fraction would be {:.4}, and its temperature {:.4} K: the first must be \
+                     above 0 and at most 1, the second above 0",
+                    helium.normal_fraction_at(x),
+                    helium.temperature + helium.warming(x, 0.0)
+                ),
+            );
+        }
+    }
+}
+
 /// Friction where the model has none.
 fn friction<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
     let Some(superfluid) = scene.superfluid else {
         return;
     };
-    if scene.model == Model::SuperfluidDissipative {
+    entropies(builder, top, scene, &superfluid.helium());
+    // Another model has no such table at all.
+    if !matches!(scene.model, Model::Superfluid | Model::SuperfluidPaper) {
         return;
     }
     let table = top.table.get("superfluid");

@@ -5,7 +5,7 @@ use super::declare::keys;
 use super::geometry::Vector3;
 use super::schema::Family;
 use super::schema::IfAbsent::{Number, Optional, Word};
-use super::schema::Range::{Above, AboveUpTo, Any, AtLeast};
+use super::schema::Range::{Above, AboveUpTo, Any, AtLeast, Between};
 use super::words::words;
 use crate::random::SplitMix64;
 use loschmidt_core::schemes::superfluid as core;
@@ -23,19 +23,20 @@ keys! {
         helium: HeliumAt = Word(HeliumAt::K190.word()), Any,
             "values at this temperature (Donnelly & Barenghi 1998), of which the next seven keys \
              replace single ones";
-        temperature: Option<f64> = Optional, Above(0.0), "T0, the reference temperature", "K";
-        reference_density: Option<f64> = Optional, Above(0.0),
+        temperature: Option<f64> = Optional, AboveUpTo(0.0, 1e3), "T0, the reference temperature", "K";
+        reference_density: Option<f64> = Optional, AboveUpTo(0.0, 1e6),
             "rho0, density at the reference temperature", "kg/m³";
-        entropy: Option<f64> = Optional, Above(0.0),
+        entropy: Option<f64> = Optional, AboveUpTo(0.0, 1e6),
             "s0, specific entropy at the reference temperature", "J/(kg K)";
         normal_fraction: Option<f64> = Optional, AboveUpTo(0.0, 1.0),
             "chi_n0, the fraction of the normal component at s0";
         fraction_slope: Option<f64> = Optional, Any,
             "chi', by which the fraction grows with the entropy", "kg K/J";
-        sound_speed: Option<f64> = Optional, Above(0.0),
+        sound_speed: Option<f64> = Optional, AboveUpTo(0.0, 1e6),
             "u_1, the speed of first sound; 40 m/s instead of helium's 230 allows longer steps",
             "m/s";
-        heat_capacity: Option<f64> = Optional, Above(0.0), "C, specific heat capacity", "J/(kg K)";
+        heat_capacity: Option<f64> = Optional, Between(1e-3, 1e9),
+            "C, specific heat capacity", "J/(kg K)";
         operators: Operators = Word(Operators::Renormalised.word()), Any,
             "gradient of the temperature and divergence of the entropy flux: exact for linear \
              fields, or the simple sums of the paper, with which second sound is too slow";
@@ -139,6 +140,19 @@ impl FirstEntropy {
             Self::Wave { amplitude, length } => x[..axes]
                 .iter()
                 .fold(*amplitude, |wave, x| wave * libm::sin(PI * x / length)),
+        }
+    }
+}
+
+impl FirstEntropy {
+    /// The least and the greatest s - s0, J/(kg K), where `entropy` is s0.
+    pub(super) fn extremes(&self, entropy: f64) -> [f64; 2] {
+        match self {
+            Self::Uniform(s) => [s - entropy; 2],
+            Self::Wave { amplitude, .. } => {
+                let swing = amplitude.abs() * entropy;
+                [-swing, swing]
+            }
         }
     }
 }

@@ -141,10 +141,14 @@ impl Scene {
         fastest.unwrap_or(self.fluid.map_or(f64::NAN, |fluid| fluid.sound_speed))
     }
 
-    /// The speed that limits the time step, m/s: that of sound, and with what
-    /// [`Solid::step_speed`] adds where particles carry a distortion.
+    /// The speed that limits the time step, m/s: that of sound, of a superfluid the faster one of
+    /// both, and with what [`Solid::step_speed`] adds where particles carry a distortion.
     #[must_use]
     pub fn step_speed(&self) -> f64 {
+        if let Some(superfluid) = self.superfluid {
+            let helium = superfluid.helium();
+            return helium.sound_speed.max(helium.second_sound());
+        }
         let fastest = self.fastest(solid::step_speed);
         fastest.unwrap_or(self.sound_speed())
     }

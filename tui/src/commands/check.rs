@@ -144,6 +144,9 @@ fn particles(scene: &Scene, initial: &InitialState) -> String {
     format!("{} fluid, {walls} wall", all - walls)
 }
 
+/// Up to so many relaxation times in a step the viscosity of a steady shear was found to be exact.
+const MOST_RELAXATIONS: f64 = 4.0;
+
 /// What the fluid is at the time step of the scene.
 fn viscous(scene: &Scene, fluid: &Viscous) -> String {
     let mut text = String::new();
@@ -154,7 +157,15 @@ fn viscous(scene: &Scene, fluid: &Viscous) -> String {
     let (tau, dt) = (fluid.relaxation_time(), scene.time_step());
     line(
         "  relaxation time",
-        format!("{tau:.4e} s, of which a step takes {:.3}", dt / tau),
+        if dt > MOST_RELAXATIONS * tau {
+            format!(
+                "{tau:.4e} s, of which a step takes {:.3}: TOO MANY, the fluid is thicker than \
+                 said; choose a smaller `shear_speed` or `cfl`",
+                dt / tau
+            )
+        } else {
+            format!("{tau:.4e} s, of which a step takes {:.3}", dt / tau)
+        },
     );
     let (c_l, c_s) = (material.longitudinal_speed(), material.shear_speed);
     line(

@@ -304,6 +304,9 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for FindNormal {
         }
         let warming = helium.warming(excess, squared * (self.speed * self.speed));
         let temperature = helium.temperature + warming;
+        if temperature <= 0.0 {
+            return Err(Fault::new(FaultKind::Temperature, id));
+        }
         write.square = A::Word::of_real(temperature * temperature);
         write.inverse = A::Word::of_real(1.0 / density);
         Ok(())

@@ -289,6 +289,9 @@ impl<A: Arithmetic, const COPY: bool, const PAPER: bool, const D: usize> PointPa
             }
         }
         let warming = helium.warming(excess, squared * (self.speed * self.speed));
+        if helium.temperature + warming <= 0.0 {
+            return Err(Fault::new(FaultKind::Temperature, id));
+        }
         let sound = helium.sound_speed * helium.sound_speed;
         let compression = (read.density.quanta() - ONE) / ONE;
         let pressure = self.pressed * (sound * (compression * (inverse * inverse)));
