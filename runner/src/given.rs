@@ -5,15 +5,6 @@ use loschmidt_core::number::Quantity;
 use loschmidt_core::set::Set;
 use loschmidt_core::{Arithmetic, Scale};
 
-/// First values of a field, in its SI unit or as a pure number.
-#[derive(Clone, Debug, PartialEq)]
-pub struct GivenField {
-    /// Its name in the model's declaration.
-    pub name: &'static str,
-    /// A value for every particle, in the order of ids; of a scalar the first component.
-    pub values: Vec<Vector3>,
-}
-
 impl InitialState {
     /// The given values of a field.
     #[must_use]

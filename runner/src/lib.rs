@@ -40,12 +40,12 @@ pub mod setup;
 pub mod simulation;
 mod storage;
 pub mod time_unit;
+pub mod totals;
 
 pub use deck::Deck;
 pub use engine::simulate;
 pub use executor::ExecutorKind;
 pub use frame::Frame;
-pub use given::GivenField;
 pub use player::{Arrow, Player};
 pub use points::Points;
 pub use pool::Rayon;

@@ -139,17 +139,6 @@ pub fn every_column() -> Vec<Measure> {
     all
 }
 
-/// A total by its heading in a series ([`heading`](crate::run::heading)): its name, and its unit.
-#[must_use]
-pub fn total_for_people(heading: &str) -> (String, &'static str) {
-    let all = <Superfluid<Fixed, 2> as Model<Fixed, 2>>::TOTALS.iter();
-    let mut all = all.filter(|measure| crate::run::heading(measure) == heading);
-    match all.next() {
-        Some(measure) => (measure.name.to_owned(), measure.unit),
-        None => (heading.replace('_', " "), ""),
-    }
-}
-
 /// What a particle of the scene consists of.
 fn fields(scene: &Scene) -> &'static [Field] {
     own_of(scene).map_or_else(|| declared!(scene, FIELDS), |model| model.fields)

@@ -3,8 +3,7 @@
 use crate::generator::Generator;
 use loschmidt_core::Scale;
 use loschmidt_core::schemes::superfluid::{Helium, HeliumParameters, Operators};
-use loschmidt_runner::GivenField;
-use loschmidt_runner::scene::InitialState;
+use loschmidt_runner::scene::{GivenField, InitialState};
 
 /// Distance of the particles, m.
 pub const SPACING: f64 = 2e-4;

@@ -6,8 +6,7 @@ use loschmidt_core::schemes::superfluid::{
     PaperSuperfluid, Superfluid,
 };
 use loschmidt_core::{Diagnostics, FaultKind, Fixed, Model, Reversibility, Serial};
-use loschmidt_runner::GivenField;
-use loschmidt_runner::scene::InitialState;
+use loschmidt_runner::scene::{GivenField, InitialState};
 use loschmidt_tests::conformance::{self, Plain};
 use loschmidt_tests::helium::{SPACING, drop, stirred};
 use loschmidt_tests::permitted;

@@ -8,8 +8,7 @@ use loschmidt_core::schemes::solid::{
     ShearEnergy, Viscous, WallVelocity, whole_metric,
 };
 use loschmidt_core::{Diagnostics, Fixed, Model, Reversibility, Serial};
-use loschmidt_runner::GivenField;
-use loschmidt_runner::scene::InitialState;
+use loschmidt_runner::scene::{GivenField, InitialState};
 use loschmidt_tests::bodies::{SPACING, block, free_body, material, stir};
 use loschmidt_tests::conformance::{self, Plain};
 

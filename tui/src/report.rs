@@ -4,8 +4,8 @@ use crate::progress::smaller_than_joule;
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use loschmidt_runner::Outcome;
 use loschmidt_runner::run::Row;
-use loschmidt_runner::setup::total_for_people;
 use loschmidt_runner::time_unit::TimeUnit;
+use loschmidt_runner::totals::total_for_people;
 
 /// The table of energies, entropy and digests.
 pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {

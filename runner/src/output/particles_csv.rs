@@ -19,6 +19,7 @@ use std::io::{self, Write};
 
 use super::PIECE;
 use crate::frame::{Frame, FrameColumn};
+use crate::totals::heading;
 use loschmidt_core::model::Measure;
 
 /// Writes frames as CSV, one after another with the same buffer.
@@ -113,20 +114,6 @@ impl CsvWriter {
             self.text.clear();
         }
         Ok(())
-    }
-}
-
-/// The name of a column with its unit, in letters that every reader takes for a name.
-fn heading(measure: &Measure) -> String {
-    let unit = measure
-        .unit
-        .replace('/', "_per_")
-        .replace('²', "2")
-        .replace('³', "3");
-    let name = measure.name.replace([' ', '-'], "_");
-    match unit.is_empty() {
-        true => name,
-        false => format!("{name}_{unit}"),
     }
 }
 

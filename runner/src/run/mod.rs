@@ -17,4 +17,4 @@ pub use outcome::{
     TotalOverTime,
 };
 pub use plan::{Due, Plan};
-pub use row::{Row, heading};
+pub use row::Row;

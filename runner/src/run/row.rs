@@ -1,7 +1,7 @@
 //! A row of the series: what is recorded of a state.
 
 use crate::player::Player;
-use loschmidt_core::model::Measure;
+use crate::totals::heading;
 use loschmidt_core::{Diagnostics, Fault};
 use std::borrow::Cow;
 
@@ -149,16 +149,5 @@ impl Row {
             self.momentum_y_quanta,
             self.momentum_z_quanta,
         ]
-    }
-}
-
-/// A measure with its unit, as headings of files and keys of JSON have it.
-#[must_use]
-pub fn heading(measure: &Measure) -> String {
-    let name = measure.name.replace(' ', "_");
-    let unit = measure.unit.replace('/', "_per_").replace(' ', "_");
-    match unit.as_str() {
-        "" => name,
-        unit => format!("{name}_{}", unit.replace(['(', ')'], "")),
     }
 }

@@ -18,7 +18,6 @@ use super::types::Scene;
 use super::viscous::WallVelocity;
 use super::wcsph::{DensityCorrection, WallModel};
 use super::words::{Dimension, LatticeKind, RegionKind};
-use crate::given::GivenField;
 use crate::isc;
 use loschmidt_core::schemes::solid::Motion;
 
@@ -37,6 +36,15 @@ pub struct InitialState {
     /// What else the model is given of the particles: of a viscous fluid the ways from wall
     /// particles to the surface of the flow, of a superfluid its counterflow and entropy.
     pub given: Vec<GivenField>,
+}
+
+/// First values of a field, in its SI unit or as a pure number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GivenField {
+    /// Its name in the model's declaration.
+    pub name: &'static str,
+    /// A value for every particle, in the order of ids; of a scalar the first component.
+    pub values: Vec<Vector3>,
 }
 
 /// Particles with consecutive ids that belong to one body.

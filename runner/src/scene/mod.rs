@@ -74,7 +74,7 @@ pub use catalogue::{CatalogueEntry, catalogue};
 pub use error::{Line, Place, Problem, ProblemKind, Problems, SceneError};
 pub use forces::{CentralGravity, Gravity};
 pub use geometry::Vector3;
-pub use initial::{InitialPart, InitialState};
+pub use initial::{GivenField, InitialPart, InitialState};
 pub use model::Model;
 pub use region::{MaterialOfBody, Region, Velocity};
 pub use shape::Shape;

@@ -6,7 +6,7 @@ use super::plot::{DotCurve, DotPlot};
 use super::{Piece, width};
 use crate::brief::brief;
 use loschmidt_runner::run::Row;
-use loschmidt_runner::setup::total_for_people;
+use loschmidt_runner::totals::total_for_people;
 use loschmidt_viewer::Rgb;
 use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
