@@ -29,6 +29,9 @@ pub enum FaultKind {
     /// The two copies of the counterflow are farther apart than the bound.
     #[error("the two copies of its counterflow are farther apart than the scene allows")]
     CopiesApart,
+    /// No liquid is near the heater.
+    #[error("no liquid is left where the heater gives its heat")]
+    HeaterDry,
     /// One pair term (or the pull of gravity in one kick) reached 2^51 quanta or was not a number.
     #[error("one of its force or density terms left the number range")]
     TermRange,

@@ -17,7 +17,7 @@ pub const VELOCITY: usize = 1;
 /// Place of the impulses of the present kick in every model's list.
 pub const IMPULSE: usize = 2;
 /// Most fields that a model may declare.
-pub const MAX_FIELDS: usize = 20;
+pub const MAX_FIELDS: usize = 24;
 
 /// What reversing time does to a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use crate::frame::Frame;
 use crate::points::Points;
 use crate::pool::Rayon;
 use crate::saved::{ArithmeticKind, SavedState};
-use crate::scene::{InitialPart, InitialState, Scene};
+use crate::scene::{InitialState, Scene};
 use crate::setup;
 use crate::simulation::{BuildError, Options, Simulation};
 use loschmidt_core::{Diagnostics, Digest, Fault, Reversibility};
@@ -84,8 +84,9 @@ pub struct Player {
     scene: Scene,
     options: Options,
     simulation: Box<dyn Simulation>,
-    /// The parts of the initial state: they are no part of a saved one.
-    parts: Vec<InitialPart>,
+    /// What is no part of a saved state: the parts of the initial one, and what was given besides
+    /// places and velocities.
+    initial: InitialState,
     home: SavedState,
     home_digest: Digest,
     position: i64,
@@ -100,9 +101,15 @@ impl Player {
     /// [`BuildError`].
     pub fn new(scene: Scene, initial: InitialState, options: Options) -> Result<Self, BuildError> {
         let mut simulation = setup::simulation(&scene, &initial, &options)?;
-        let parts = initial.parts;
+        // Places and velocities are those of home.
+        let initial = InitialState {
+            fluid: Vec::new(),
+            fluid_velocity: Vec::new(),
+            wall: Vec::new(),
+            ..initial
+        };
         Ok(Self {
-            parts,
+            initial,
             home: simulation.save(),
             home_digest: simulation.digest(),
             scene,
@@ -174,7 +181,7 @@ impl Player {
         if self.scene.viscous.is_none() {
             return 0;
         }
-        let first = self.parts.iter().find(|part| part.held);
+        let first = self.initial.parts.iter().find(|part| part.held);
         first.map_or(0, |part| self.home.id.len() as u64 - part.first)
     }
 
@@ -312,9 +319,12 @@ impl Player {
             arithmetic,
             ..self.options
         };
+        let home = self.home.initial_state();
         let initial = InitialState {
-            parts: self.parts.clone(),
-            ..self.home.initial_state()
+            fluid: home.fluid,
+            fluid_velocity: home.fluid_velocity,
+            wall: home.wall,
+            ..self.initial.clone()
         };
         let mut other = setup::simulation(&self.scene, &initial, &options)?;
         other.restore(&self.simulation.save().converted(arithmetic))?;

@@ -74,6 +74,7 @@ impl SavedState {
             fluid_velocity: particles.map(|n| self.velocity(n)).collect(),
             wall: walls.map(|words| self.in_si(words, quantum)).collect(),
             // What follows from them are fields of the state.
+            walls: Vec::new(),
             parts: Vec::new(),
             given: Vec::new(),
         }

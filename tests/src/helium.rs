@@ -24,11 +24,33 @@ pub fn drop<const D: usize>(operators: Operators) -> HeliumParameters<D> {
         diffusion: 0.0,
         most_separation: f64::INFINITY,
         gravity: [0.0; D],
+        surface: None,
+        walls: core::iter::empty().collect(),
+        suction: false,
+        lattice_sum: 0.0,
+        heater: None,
+        superleak: None,
         speed_bin: 0.1,
         scale: Scale::with_headroom(4e-3, helium.sound_speed, helium.reference_density),
         extent: [4e-3; D],
         max_buckets: 1024,
     }
+}
+
+/// Puts four layers of walls under and beside such a block, on its lattice.
+pub fn wall_in<const D: usize>(state: &mut InitialState, counts: [usize; D]) {
+    const DEPTH: usize = 4;
+    let around = crate::bodies::block(counts.map(|count| count + 2 * DEPTH));
+    let factor = SPACING / crate::bodies::SPACING;
+    let inside = |x: &[f64; 3]| {
+        (0..D).all(|d| {
+            let half = 0.5 * counts[d] as f64 * SPACING;
+            // It is open above.
+            x[d] > -half && (x[d] < half || d == D - 1)
+        })
+    };
+    let places = around.fluid.iter().map(|x| x.map(|x| x * factor));
+    state.wall = places.filter(|x| !inside(x)).collect();
 }
 
 /// So many particles along each axis on the square or cubic lattice, each moved by up to a tenth of

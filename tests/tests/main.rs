@@ -33,4 +33,5 @@ mod solid_forces;
 mod standard;
 mod superfluid;
 mod viscous;
+mod walled_helium;
 mod wide_passes;

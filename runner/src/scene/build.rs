@@ -5,6 +5,7 @@ use super::check::{check, dimension, family};
 use super::declare::Keys;
 use super::error::SceneError;
 use super::model::Model;
+use super::region::Region;
 use super::regions::require_movers;
 use super::schema::ValueType;
 use super::source::is_name_character;
@@ -15,7 +16,7 @@ use super::viscous::Relaxation;
 use super::wcsph::WallModel;
 use super::words::{Dimension, RegionKind};
 use loschmidt_core::schemes::solid::{MAX_BODIES, MAX_PARTS, MOST_OF_PAPER};
-use loschmidt_core::schemes::superfluid::Helium;
+use loschmidt_core::schemes::superfluid::{Helium, MAX_WALLS};
 
 /// The most steps of a leg; every count below it is an exact f64.
 const MOST_STEPS: u64 = 1 << 48;
@@ -176,6 +177,21 @@ fn relaxation<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
     }
 }
 
+/// Walls of helium: not too many.
+fn walls_of_helium<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
+    let wall = |region: &&Region| region.kind == RegionKind::Wall;
+    let count = scene.regions.iter().filter(wall).count();
+    if let Some(entry) = top.table.get("region")
+        && count > MAX_WALLS
+    {
+        builder.out_of_range(
+            format!("{count} wall regions"),
+            entry.key,
+            format!("allowed: at most {MAX_WALLS} of them; a `union` joins walls of one kind"),
+        );
+    }
+}
+
 /// First entropies at which there is no such helium.
 fn entropies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene, helium: &Helium) {
     let nodes = top.table.get("region").map(|entry| elements(&entry.node));
@@ -212,30 +228,46 @@ fn friction<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
         return;
     };
     entropies(builder, top, scene, &superfluid.helium());
+    walls_of_helium(builder, top, scene);
     // Another model has no such table at all.
     if !matches!(scene.model, Model::Superfluid | Model::SuperfluidPaper) {
         return;
     }
     let table = top.table.get("superfluid");
     let table = table.and_then(|entry| as_table(&entry.node));
-    for (name, value) in [
-        ("viscosity", superfluid.viscosity),
-        ("diffusion", superfluid.diffusion),
+    let power = superfluid.heater.map_or(0.0, |heater| heater.power);
+    let mut refused = Vec::new();
+    for (name, given) in [
+        ("viscosity", superfluid.viscosity > 0.0),
+        ("diffusion", superfluid.diffusion > 0.0),
+        ("heater", power > 0.0),
+        ("superleak", superfluid.superleak.is_some()),
     ] {
-        if let Some(entry) = table.and_then(|table| table.get(name))
-            && value > 0.0
-        {
-            builder.conflict(
-                format!(
-                    "`{name}` does not go with `model = \"{}\"`",
-                    scene.model.word()
-                ),
-                entry.key,
-                "it takes energy and information out of the flow: write \
-                 `model = \"superfluid-dissipative\"`, or remove it"
-                    .to_owned(),
-            );
+        let entry = table.and_then(|table| table.get(name));
+        refused.extend(entry.filter(|_| given).map(|entry| (name, entry.key)));
+    }
+    let nodes = top.table.get("region").map(|entry| elements(&entry.node));
+    for (node, region) in nodes.into_iter().flatten().zip(&scene.regions) {
+        let wall = region.kind == RegionKind::Wall;
+        for (name, given) in [
+            ("conduction", region.conduction.is_some()),
+            ("velocity", wall && region.velocity.is_some()),
+        ] {
+            let entry = as_table(node).and_then(|table| table.get(name));
+            refused.extend(entry.filter(|_| given).map(|entry| (name, entry.key)));
         }
+    }
+    for (name, span) in refused {
+        builder.conflict(
+            format!(
+                "`{name}` does not go with `model = \"{}\"`",
+                scene.model.word()
+            ),
+            span,
+            "it takes energy and information out of the flow or puts them in: write \
+             `model = \"superfluid-dissipative\"`, or remove it"
+                .to_owned(),
+        );
     }
 }
 

@@ -114,4 +114,16 @@ const ENTRIES: &[CatalogueEntry] = &[
         citation: "no publication: a test of how long a superfluid can be followed",
         text: include_str!("../../scenes/counterflow.toml"),
     },
+    CatalogueEntry {
+        name: "normal-cavity",
+        title: "the normal component of helium alone, in a box under a sliding lid",
+        citation: "Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, section III A",
+        text: include_str!("../../scenes/normal-cavity.toml"),
+    },
+    CatalogueEntry {
+        name: "fountain",
+        title: "a heater under the surface drives a jet of superfluid helium out of a nozzle",
+        citation: "after Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, section III C",
+        text: include_str!("../../scenes/fountain.toml"),
+    },
 ];

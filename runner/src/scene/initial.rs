@@ -19,6 +19,7 @@ use super::viscous::WallVelocity;
 use super::wcsph::{DensityCorrection, WallModel};
 use super::words::{Dimension, LatticeKind, RegionKind};
 use crate::isc;
+use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::schemes::solid::Motion;
 
 /// The particles at time zero; z is 0 in two dimensions.
@@ -30,6 +31,8 @@ pub struct InitialState {
     pub fluid_velocity: Vec<Vector3>,
     /// Positions of the wall particles, m.
     pub wall: Vec<Vector3>,
+    /// The walls of each region, in the order of their first particles.
+    pub walls: Vec<InitialWall>,
     /// The parts of elastic bodies or of a viscous fluid and its walls, one for each region, in the
     /// order of their first ids.
     pub parts: Vec<InitialPart>,
@@ -45,6 +48,15 @@ pub struct GivenField {
     pub name: &'static str,
     /// A value for every particle, in the order of ids; of a scalar the first component.
     pub values: Vec<Vector3>,
+}
+
+/// Wall particles one after another that belong to one region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InitialWall {
+    /// Place of the first one in [`InitialState::wall`].
+    pub first: u64,
+    /// Number of the region in the scene.
+    pub region: usize,
 }
 
 /// Particles with consecutive ids that belong to one body.
@@ -150,6 +162,12 @@ impl Scene {
                     },
                     held: region.held || region.kind == RegionKind::Wall,
                     motion: region.motion(),
+                });
+            }
+            if !self.is_movable(region.kind) {
+                state.walls.push(InitialWall {
+                    first: before as u64,
+                    region: number,
                 });
             }
             visit(&lattice, &region.shape, |point| points.push(point));
@@ -292,7 +310,8 @@ impl Scene {
 
     /// The regions that hold particles, with their numbers in file order, walls last.
     fn filled_regions(&self) -> impl Iterator<Item = (usize, &Region)> {
-        let walls = self.has_distortion() || self.water.wall_model != WallModel::None;
+        let models = self.has_distortion() || self.superfluid.is_some();
+        let walls = models || self.water.wall_model != WallModel::None;
         let regions = self.regions.iter().enumerate();
         // Walls have no ids of their own, or the last ones.
         let flow = regions
@@ -336,6 +355,36 @@ impl Scene {
             }
             RegionKind::Wall => None,
         }
+    }
+
+    /// Σ V0 W over all nodes of the lattice of the first fluid region but one; 0 on a spiral, whose
+    /// nodes differ.
+    #[must_use]
+    pub fn lattice_sum(&self) -> f64 {
+        let Some(lattice) = self.first_lattice() else {
+            return 0.0;
+        };
+        if lattice.kind == LatticeKind::Vogel {
+            return 0.0;
+        }
+        let axes = self.dimension.axes();
+        let reach = self.support_radius();
+        let kernel = WendlandC2::new(axes, reach, 1.0);
+        let middle = lattice.node([0; 3]);
+        let ball = Shape::Ball {
+            centre: middle,
+            radius: reach,
+        };
+        let volume = self.particle_mass() / self.reference_density();
+        let mut sum = 0.0;
+        visit(&lattice, &ball, |point| {
+            let squares = (0..axes).map(|k| (point[k] - middle[k]) * (point[k] - middle[k]));
+            let r = squares.sum::<f64>().sqrt();
+            if r > 0.5 * lattice.spacing && r < reach {
+                sum += volume * kernel.value(r);
+            }
+        });
+        sum
     }
 
     /// The lattice of the first fluid region, which walls continue.

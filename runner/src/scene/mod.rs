@@ -74,14 +74,16 @@ pub use catalogue::{CatalogueEntry, catalogue};
 pub use error::{Line, Place, Problem, ProblemKind, Problems, SceneError};
 pub use forces::{CentralGravity, Gravity};
 pub use geometry::Vector3;
-pub use initial::{GivenField, InitialPart, InitialState};
+pub use initial::{GivenField, InitialPart, InitialState, InitialWall};
 pub use model::Model;
 pub use region::{MaterialOfBody, Region, Velocity};
 pub use shape::Shape;
 pub use solid::{ElasticEnergy, Solid};
 pub use source::{Source, resolve};
 pub use step::StepRule;
-pub use superfluid::{Counterflow, FirstEntropy, HeliumAt, Operators, Superfluid};
+pub use superfluid::{
+    Counterflow, FirstEntropy, Heater, HeliumAt, Operators, Superfluid, Superleak, WallPressure,
+};
 pub use types::{Output, Scene};
 pub use viscous::{Relaxation, Viscous, WallVelocity};
 pub use wcsph::{DensityCorrection, EquationOfState, Fluid, WallModel, WallPotential, Water};

@@ -35,11 +35,17 @@ pub(super) fn print_region(page: &mut Page, region: &Region) {
     let lattice = region.lattice.map(|lattice| text(lattice.word()));
     print_at(page, &REGION, "lattice", "lattice", lattice);
     print_shape(page, "shape", &region.shape);
-    let wall_that_moves = region.kind == RegionKind::Wall && page.is_of(viscous::FAMILY);
-    if (region.kind.is_of_the_model() && !region.held) || wall_that_moves {
+    let wall = region.kind == RegionKind::Wall;
+    let moves = page.is_of(viscous::FAMILY) || page.is_of(superfluid::FAMILY);
+    if (region.kind.is_of_the_model() && !region.held) || (wall && moves) {
         print_velocity(page, region.velocity);
     }
-    if page.is_of(superfluid::FAMILY) {
+    if page.is_of(superfluid::FAMILY) && wall {
+        let smooth = Some(region.smooth.to_string());
+        print_at(page, &REGION, "smooth", "smooth", smooth);
+        let conduction = region.conduction.map(number);
+        print_at(page, &REGION, "conduction", "conduction", conduction);
+    } else if page.is_of(superfluid::FAMILY) {
         print_superfluid(page, region);
     }
 }

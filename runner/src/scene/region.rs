@@ -18,13 +18,17 @@ pub struct Region {
     /// Arrangement of the particles of a fluid region; a wall has `None`, since it
     /// continues the lattice of the first fluid region.
     pub lattice: Option<LatticeKind>,
-    /// First velocity; `None` is at rest. Of a wall, how it slides or turns: in scenes of a viscous
-    /// fluid alone.
+    /// First velocity; `None` is at rest. Of a wall, how it slides or turns, in scenes of a viscous
+    /// fluid, or the velocity with which it rubs, in those of a superfluid.
     pub velocity: Option<Velocity>,
     /// First counterflow of a superfluid; `None` is none.
     pub counterflow: Option<Counterflow>,
     /// First entropy of a superfluid; `None` is that of the reference temperature.
     pub entropy: Option<FirstEntropy>,
+    /// Whether a wall of a superfluid has no friction.
+    pub smooth: bool,
+    /// β between a superfluid and a wall, W/(m K²); `None`: no heat passes.
+    pub conduction: Option<f64>,
     /// Name of the body that a solid region belongs to; `None`: a body of its own.
     pub body: Option<String>,
     /// In what its body differs from the table `[solid]`.

@@ -40,7 +40,8 @@ pub(super) static REGION: TableRules = TableRules {
             .required()
             .means("what is filled"),
         key("velocity", Table(&VELOCITY)).means(
-            "first velocity of the fluid, or how a wall of a viscous one moves; absent: at rest",
+            "first velocity of the fluid, or how a wall of a viscous one or of helium moves; absent: \
+             at rest",
         ),
         key("counterflow", Table(&COUNTERFLOW))
             .of(superfluid::FAMILY)
@@ -48,6 +49,14 @@ pub(super) static REGION: TableRules = TableRules {
         key("entropy", Table(&ENTROPY))
             .of(superfluid::FAMILY)
             .means("first entropy; absent: that of the reference temperature"),
+        key("smooth", Flag)
+            .of(superfluid::FAMILY)
+            .means("whether the normal component slides along the wall without friction"),
+        key("conduction", Number)
+            .unit("W/(m K²)")
+            .of(superfluid::FAMILY)
+            .within(AtLeast(0.0))
+            .means("beta between the liquid and a wall that stays at T0; absent: no heat passes"),
     ],
 };
 

@@ -70,9 +70,6 @@ fn refuse_kind<'a>(builder: &mut Builder<'a>, here: Here<'a>, kind: RegionKind) 
         RegionKind::Wall if builder.is_of(solid::FAMILY) && !builder.is_of(wcsph::FAMILY) => {
             "write `kind = \"solid\"` and `held = true`: a solid that never moves"
         }
-        RegionKind::Wall if builder.is_of(superfluid::FAMILY) && !builder.is_of(wcsph::FAMILY) => {
-            "helium has free surfaces on all sides: remove the region"
-        }
         _ => return,
     };
     builder.conflict(
@@ -99,16 +96,36 @@ fn refuse_shapeless_motion<'a>(
     here: Here<'a>,
     velocity: Option<Velocity>,
 ) {
-    let rigid = matches!(
-        velocity,
-        None | Some(Velocity::Uniform(_) | Velocity::Rotation { .. })
-    );
+    let turns = !builder.is_of(superfluid::FAMILY);
+    let rigid = match velocity {
+        None | Some(Velocity::Uniform(_)) => true,
+        Some(Velocity::Rotation { .. }) => turns,
+        Some(_) => false,
+    };
+    let (message, help) = if turns {
+        (
+            "a wall slides or turns",
+            "write `velocity.uniform`, or `velocity.rotation` and `velocity.centre`",
+        )
+    } else {
+        ("a wall of helium slides", "write `velocity.uniform`")
+    };
     if let Some(entry) = here.table.get("velocity").filter(|_| !rigid) {
-        builder.conflict(
-            "a wall slides or turns".to_owned(),
-            entry.key,
-            "write `velocity.uniform`, or `velocity.rotation` and `velocity.centre`".to_owned(),
-        );
+        builder.conflict(message.to_owned(), entry.key, help.to_owned());
+    }
+}
+
+/// Reports keys of a wall in a region that is none, and keys of a liquid in one that is.
+fn refuse_beside_walls<'a>(builder: &mut Builder<'a>, here: Here<'a>, kind: RegionKind) {
+    let wall = kind == RegionKind::Wall;
+    let of_walls = ["smooth", "conduction"].map(|name| (name, !wall));
+    let of_liquids = ["counterflow", "entropy"].map(|name| (name, wall));
+    for (name, refused) in of_walls.into_iter().chain(of_liquids) {
+        if let Some(entry) = here.table.get(name).filter(|_| refused) {
+            let region = kind.word();
+            let message = format!("a {region} region has no `{name}`");
+            builder.conflict(message, entry.key, "remove it".to_owned());
+        }
     }
 }
 
@@ -148,7 +165,7 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
             ),
             ("velocity", "walls are at rest: remove it"),
         ];
-        let moves = builder.is_of(viscous::FAMILY);
+        let moves = builder.is_of(viscous::FAMILY) || builder.is_of(superfluid::FAMILY);
         for (name, help) in rules {
             if let Some(entry) = here.table.get(name)
                 && !(moves && name == "velocity")
@@ -178,6 +195,9 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
     let entropy = builder
         .inner(here, "entropy", &ENTROPY)
         .and_then(|inner| entropy(builder, inner));
+    let smooth = builder.flag(here, "smooth");
+    let conduction = builder.optional_number(here, "conduction");
+    refuse_beside_walls(builder, here, kind);
     let shape = builder
         .inner(here, "shape", &SHAPE)
         .map_or(nothing(), |inner| shape(builder, inner));
@@ -188,6 +208,8 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
         velocity,
         counterflow,
         entropy,
+        smooth,
+        conduction,
         body,
         material,
         held,

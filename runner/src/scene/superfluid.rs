@@ -4,7 +4,7 @@
 use super::declare::keys;
 use super::geometry::Vector3;
 use super::schema::Family;
-use super::schema::IfAbsent::{Number, Optional, Word};
+use super::schema::IfAbsent::{Number, Optional, Required, Word};
 use super::schema::Range::{Above, AboveUpTo, Any, AtLeast, Between};
 use super::words::words;
 use crate::random::SplitMix64;
@@ -47,6 +47,48 @@ keys! {
              (superfluid-dissipative)", "W/(m K²)";
         separation: Option<f64> = Optional, Above(0.0),
             "how far the two copies of the counterflow may come apart before the run ends", "m/s";
+        walls: WallPressure = Word(WallPressure::Push.word()), Any,
+            "what walls do where the liquid beside them is stretched: nothing, as where a surface \
+             comes and goes, or pull, as in a closed vessel";
+        surface: Option<f64> = Optional, Any,
+            "height, against gravity, below which the liquid begins with the pressure of what is \
+             above it; absent: no pressure at first", "m";
+        heater: Option<Heater> = Optional, Any, "a source of heat (superfluid-dissipative)";
+        superleak: Option<Superleak> = Optional, Any,
+            "a porous plate that holds the normal component (superfluid-dissipative)";
+    }
+}
+
+keys! {
+    /// A source of heat at a point, spread by the kernel.
+    #[derive(Copy)]
+    Heater of SUPERFLUID, table Other "`[superfluid.heater]`" {
+        place: Vector3 = Required, Any, "the point", "m";
+        power: f64 = Required, AtLeast(0.0), "what it gives, in the plane to each metre of depth",
+            "W";
+        radius: f64 = Required, Above(0.0), "how far around the point it is felt", "m";
+    }
+}
+
+keys! {
+    /// A plate along the axes that lets the superfluid component alone pass.
+    #[derive(Copy)]
+    Superleak of SUPERFLUID, table Other "`[superfluid.superleak]`" {
+        centre: Vector3 = Required, Any, "middle of the plate", "m";
+        half: Vector3 = Required, AtLeast(0.0), "half of its lengths along each axis", "m";
+        radius: f64 = Required, Above(0.0), "how far from the plate it is felt", "m";
+        time: f64 = Number(1e-6), Above(0.0), "the time in which it holds the normal component",
+            "s";
+    }
+}
+
+words! {
+    /// What walls do where the liquid beside them is stretched.
+    WallPressure {
+        /// Nothing.
+        Push = "push",
+        /// They pull.
+        PushAndPull = "push and pull",
     }
 }
 

@@ -1,10 +1,14 @@
 //! From a scene of superfluid helium to the parameters of its models.
 
 use super::{Bounds, fastest, first, largest, max_buckets};
-use crate::scene::{InitialState, Scene, Vector3};
+use crate::scene::{
+    InitialState, InitialWall, Region, RegionKind, Scene, Vector3, Velocity, WallPressure,
+};
 use loschmidt_core::Scale;
 use loschmidt_core::observe::BINS;
-use loschmidt_core::schemes::superfluid::{Helium, HeliumParameters, Operators};
+use loschmidt_core::schemes::superfluid::{
+    Heater, Helium, HeliumParameters, Operators, Superleak, WallPart,
+};
 
 /// The core's parameters of a scene of superfluid helium; those of another scene are refused by
 /// every model.
@@ -18,7 +22,9 @@ pub fn helium_parameters<const D: usize>(
     let helium = superfluid.map_or(Helium::AT_1_90_K, |it| it.helium());
     let counterflow = initial.given("counterflow").map_or(0.0, largest);
     let excess = initial.given("entropy").map_or(0.0, largest);
-    let flow = flow_speeds(&helium, excess, counterflow, fastest(initial));
+    let lids: Vec<Vector3> = scene.regions.iter().map(lid_velocity).collect();
+    let whole = fastest(initial).max(largest(&lids));
+    let flow = flow_speeds(&helium, excess, counterflow, whole);
     HeliumParameters {
         support_radius: scene.support_radius(),
         particle_spacing: scene.particle_spacing,
@@ -32,6 +38,32 @@ pub fn helium_parameters<const D: usize>(
             .and_then(|it| it.separation)
             .unwrap_or(f64::INFINITY),
         gravity: first(scene.gravity.uniform),
+        surface: superfluid.and_then(|it| it.surface),
+        // A scene with more parts was refused.
+        walls: initial
+            .walls
+            .iter()
+            .map(|wall| wall_part(scene, wall))
+            .collect(),
+        suction: superfluid.is_some_and(|it| it.walls == WallPressure::PushAndPull),
+        lattice_sum: if initial.wall.is_empty() {
+            0.0
+        } else {
+            scene.lattice_sum()
+        },
+        heater: superfluid.and_then(|it| it.heater).map(|heater| Heater {
+            place: first(heater.place),
+            power: heater.power,
+            radius: heater.radius,
+        }),
+        superleak: superfluid
+            .and_then(|it| it.superleak)
+            .map(|leak| Superleak {
+                centre: first(leak.centre),
+                half: first(leak.half),
+                radius: leak.radius,
+                time: leak.time,
+            }),
         speed_bin: flow.whole / BINS as f64,
         scale: Scale::with_headroom(
             bounds.farthest.max(scene.support_radius()),
@@ -40,6 +72,25 @@ pub fn helium_parameters<const D: usize>(
         ),
         extent: first(bounds.extent),
         max_buckets: max_buckets(initial.fluid.len()),
+    }
+}
+
+/// What a wall is.
+fn wall_part<const D: usize>(scene: &Scene, wall: &InitialWall) -> WallPart<D> {
+    let region = &scene.regions[wall.region];
+    WallPart {
+        first: wall.first,
+        rough: !region.smooth,
+        conduction: region.conduction.unwrap_or(0.0),
+        velocity: first(lid_velocity(region)),
+    }
+}
+
+/// The velocity with which a wall rubs, m/s.
+fn lid_velocity(region: &Region) -> Vector3 {
+    match (region.kind, region.velocity) {
+        (RegionKind::Wall, Some(Velocity::Uniform(velocity))) => velocity,
+        _ => [0.0; 3],
     }
 }
 

@@ -78,6 +78,9 @@ targets! {
     /// Figs. 5 and 6 of the paper on superfluid helium.
     Sound = "second-sound", "helium: second sound (Figs. 5 and 6 of the third paper)",
         targets::sound::sound;
+    /// Figs. 8 to 12 of the paper on superfluid helium.
+    Fountain = "fountain", "helium: the fountain (Figs. 8 to 12 of the third paper)",
+        targets::fountain::fountain;
 }
 
 /// Names for several targets at once.

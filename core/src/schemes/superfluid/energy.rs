@@ -5,13 +5,17 @@
 //! - thermal        Σ m T0 x²/(2C), x = s - s0
 //! - gravitational  -Σ m g·x, zero at the origin
 //!
-//! as eq. (15) has them, but for T0 Σ m x: that is the entropy of the whole times a constant, which
+//! as eq. (15) has them, the compression that of walls too, but for T0 Σ m x: that is the entropy of the whole times a constant, which
 //! friction alone changes; there it is counted as heat, from the
-//! start on. Where the state is held twice, all of these
+//! start on. What walls have taken, less what lids and the heater have given, is `drive`: with it the
+//! sum of all is constant. Where the state is held twice, all of these
 //! are of the mean.
 
-use super::fields::{COUNTERFLOW, COUNTERFLOW_COPY, DENSITY, ENTROPY, ENTROPY_COPY, ONE, SUMS};
+use super::fields::{
+    COUNTERFLOW, COUNTERFLOW_COPY, DENSITY, ENTROPY, ENTROPY_COPY, ONE, ONE_LEDGER, SUMS, TAKEN,
+};
 use super::parameters::{HeliumParameters, Operators};
+use super::walls::felt_compression;
 use crate::exact::ExactSum;
 use crate::fault::{Fault, FaultKind};
 use crate::matrix::is_damped;
@@ -30,7 +34,7 @@ pub(super) const NAMES: &[&str] = &[
     "gravitational",
 ];
 
-/// The same, and the heat: T0 Σ m x, which friction makes.
+/// The same, the heat, T0 Σ m x, which friction makes, and what was exchanged with the surroundings.
 pub(super) const NAMES_WITH_HEAT: &[&str] = &[
     "kinetic",
     "counterflow",
@@ -38,6 +42,7 @@ pub(super) const NAMES_WITH_HEAT: &[&str] = &[
     "thermal",
     "gravitational",
     "heat",
+    "drive",
 ];
 
 /// Place of the heat among them.
@@ -155,6 +160,12 @@ pub(super) fn energies<A: Arithmetic, const TWICE: bool, const D: usize>(
             *sum = sum.plus(term / unit);
         }
     }
+    let walls = system.walls.view();
+    for place in 0..walls.id.len() {
+        let compression = (walls.words(DENSITY)[place].quanta() - ONE) / ONE;
+        let felt = felt_compression(compression, p.suction);
+        sums[1] = sums[1].plus(helium.compression_energy(felt) / unit);
+    }
     if let Some(fault) = faults {
         return Err(fault);
     }
@@ -182,6 +193,18 @@ pub(super) fn heat<A: Arithmetic, const D: usize>(
     let twice = twice - libm::rint(first) as i128;
     let unit = p.mass() * p.helium.temperature * p.helium.entropy / (2.0 * ONE);
     twice as f64 * unit
+}
+
+/// What walls have taken from the liquid, less what the heater has given, J.
+pub(super) fn taken<A: Arithmetic, const D: usize>(
+    p: &HeliumParameters<D>,
+    system: &System<'_, A, D>,
+) -> f64 {
+    let unit = p.mass() * (p.heat_speed() * p.heat_speed()) / ONE_LEDGER;
+    let words = system.walls.words(TAKEN).iter();
+    let of_walls: i128 = words.map(|word| i128::from(word.whole_quanta())).sum();
+    let power = p.heater.map_or(0.0, |heater| heater.power);
+    of_walls as f64 * unit - power * p.time_step * system.clock.step as f64
 }
 
 /// Σ m s, and how far the copies are apart at most, in the order of [`TOTALS`].
@@ -217,7 +240,7 @@ pub(super) fn lone_particles<A: Arithmetic, const D: usize>(
     p: &HeliumParameters<D>,
     system: &System<'_, A, D>,
 ) -> u64 {
-    if p.operators == Operators::Paper {
+    if p.operators == Operators::Paper || p.is_normal() {
         return 0;
     }
     let set = system.particles.view();

@@ -1,7 +1,7 @@
 //! What a particle of a superfluid consists of.
 
 use crate::fields::{
-    Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Rank, TimeParity, VELOCITY_FIELD,
+    Field, IMPULSE_FIELD, POSITION_FIELD, Quantum, Rank, Role, TimeParity, VELOCITY_FIELD,
 };
 
 /// w = u ϱ^(-1/D), the reduced counterflow. With the paper's integrator u itself.
@@ -39,6 +39,11 @@ pub const RUBBED: usize = 17;
 pub const RUBBING: usize = 18;
 /// Heat that a particle receives, per mass. With friction.
 pub const HEAT: usize = 19;
+/// The share of a particle in what the heater gives. With friction.
+pub const HEATING: usize = 20;
+/// What a wall has taken from the liquid since the start, per mass of a particle: heat, less the work
+/// of a lid. Walls alone, with friction.
+pub const TAKEN: usize = 21;
 /// dv and du of half a step, kept from the end of the last one. The paper's integrator alone.
 pub const RATES: usize = 14;
 
@@ -50,6 +55,10 @@ pub(super) const RATE: Quantum = Quantum::Pure(50);
 ///
 /// [`HeliumParameters::heat_speed`]: super::HeliumParameters::heat_speed
 pub(super) const WARMTH: Quantum = Quantum::Pure(50);
+/// What walls take adds up over a run: it counts 2^-36 of the same, and stays below 2^15.
+pub(super) const LEDGER: Quantum = Quantum::Pure(36);
+/// 1 in quanta of [`LEDGER`].
+pub(super) const ONE_LEDGER: f64 = (1u64 << 36) as f64;
 /// 1 in quanta of [`WARMTH`].
 pub(super) const ONE_WARMTH: f64 = (1u64 << 50) as f64;
 /// 1 in quanta of [`PURE`].
@@ -60,6 +69,16 @@ pub(super) const ONE_RATE: f64 = (1u64 << 50) as f64;
 use Quantum::{Real, Speed};
 use Rank::{Matrix, Scalar, Several, Symmetric, Vector};
 use TimeParity::{Even, Odd};
+
+/// The fields that walls have as well.
+const fn with_walls<const N: usize>(mut fields: [Field; N]) -> [Field; N] {
+    // Walls stand still: the zeros are there to be read.
+    fields[crate::fields::VELOCITY].walls = Role::Scratch;
+    fields[DENSITY_CONSTANT].walls = Role::State;
+    fields[DENSITY].walls = Role::Scratch;
+    fields[CARRIER].walls = Role::Scratch;
+    fields
+}
 
 /// What both schemes have.
 const SHARED: [Field; 14] = [
@@ -109,20 +128,29 @@ pub(super) const FIELDS: [Field; 16] = {
         f += 1;
     }
     all[ENTROPY_COPY] = Field::state("entropy copy", Scalar, PURE, Even);
-    all
+    with_walls(all)
 };
 
 /// The fields of the reversible model, and what friction needs.
-pub(super) const FIELDS_OF_FRICTION: [Field; 20] = {
-    let mut all = [Field::scratch("heat", Scalar, WARMTH); 20];
+pub(super) const FIELDS_OF_FRICTION: [Field; 22] = {
+    let mut all = [Field::scratch("heating", Scalar, PURE); 22];
     let mut f = 0;
     while f < FIELDS.len() {
         all[f] = FIELDS[f];
         f += 1;
     }
-    all[NORMAL] = Field::scratch("normal flow", Several { plane: 4, space: 5 }, Real);
+    all[NORMAL] = Field::scratch("normal flow", Several { plane: 5, space: 6 }, Real);
     all[RUBBED] = Field::scratch("rubbed", Several { plane: 3, space: 4 }, Speed);
     all[RUBBING] = Field::scratch("rubbing", Several { plane: 5, space: 7 }, Real);
+    f = NORMAL;
+    while f <= RUBBING {
+        all[f].walls = Role::Scratch;
+        f += 1;
+    }
+    all[HEAT] = Field::scratch("heat", Scalar, WARMTH);
+    all[TAKEN] = Field::scratch("taken", Scalar, LEDGER)
+        .on_particles(Role::Absent)
+        .on_walls(Role::State);
     all
 };
 
@@ -135,5 +163,5 @@ pub(super) const FIELDS_OF_PAPER: [Field; 15] = {
         all[f] = SHARED[f];
         f += 1;
     }
-    all
+    with_walls(all)
 };

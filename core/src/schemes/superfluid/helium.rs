@@ -108,4 +108,24 @@ impl Helium {
     pub fn thermal_energy(&self, excess: f64) -> f64 {
         self.temperature / (2.0 * self.heat_capacity) * (excess * excess)
     }
+
+    /// By how much the excess of entropy grows, J/(kg K), where the energy grows by `heat`, J/kg,
+    /// with a given u², m²/s², of the counterflow.
+    #[must_use]
+    pub fn growth(&self, excess: f64, counterflow_squared: f64, heat: f64) -> f64 {
+        let capacity = self.temperature / self.heat_capacity;
+        let first = self.normal_fraction_at(excess);
+        let mut growth = 0.0;
+        // Newton's iteration: the energy is all but linear.
+        for _ in 0..3 {
+            let last = self.normal_fraction_at(excess + growth);
+            let thermal = growth * (self.temperature + capacity * (excess + 0.5 * growth));
+            let share = self.fraction_slope * growth / (first * last);
+            let flow = 0.5 * counterflow_squared * share;
+            let missing = heat - (thermal - flow);
+            let warming = self.warming(excess + growth, counterflow_squared);
+            growth += missing / (self.temperature + warming);
+        }
+        growth
+    }
 }

@@ -7,6 +7,7 @@
 //!
 //! Source: Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124.
 
+mod devices;
 mod energy;
 mod fields;
 mod friction;
@@ -17,10 +18,12 @@ mod parameters;
 mod passes;
 mod reversible;
 mod updates;
+mod walls;
 
 pub use fields::{
     CARRIER, COUNTERFLOW, COUNTERFLOW_COPY, DENSITY, DENSITY_CONSTANT, ENTROPY, ENTROPY_COPY,
-    FLUXES, GRADIENT, HEAT, INFLOW, INVERSE, NORMAL, PULL, RATES, RUBBED, RUBBING, SUMS,
+    FLUXES, GRADIENT, HEAT, HEATING, INFLOW, INVERSE, NORMAL, PULL, RATES, RUBBED, RUBBING, SUMS,
+    TAKEN,
 };
 pub use friction::{
     DissipativeSuperfluid, Friction, FrictionPass, HeatPass, Normal, Rubbed, Rubbing,
@@ -28,6 +31,7 @@ pub use friction::{
 pub use helium::Helium;
 pub use liquid::Liquid;
 pub use paper::PaperSuperfluid;
-pub use parameters::{HeliumParameters, Operators};
+pub use parameters::{Heater, HeliumParameters, MAX_WALLS, Operators, Superleak, WallPart};
 pub use passes::{Carrier, FluxPass, Fluxes, GradientPass, Sums, SumsPass};
 pub use reversible::{Doubled, Superfluid};
+pub use walls::{DensityPass, PressurePass};

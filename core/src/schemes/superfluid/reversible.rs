@@ -19,6 +19,9 @@
 //! in strong shear: it starts with the square of the time step, and how far the copies are apart
 //! says how far the result can be trusted.
 //!
+//! Where there is no superfluid component, and never will be, a step is kick(½), drift(1), kick(½)
+//! of pressures alone, and u stays as it is.
+//!
 //! Source of what is solved: Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, whose own
 //! integrator is [`PaperSuperfluid`](super::PaperSuperfluid). The two copies are after M. Tao,
 //! Phys. Rev. E 94 (2016) 043303.
@@ -122,9 +125,18 @@ impl<A: Arithmetic, const D: usize, const FRICTION: bool> Model<A, D> for Double
     }
 
     fn stages(&self, _: u64) -> impl Iterator<Item = Stage> {
-        let half = [Kick(0.5), Counterkick(0.5), Lift(0.5)];
-        let back = [Lift(0.5), Counterkick(0.5), Kick(0.5)];
-        half.into_iter().chain([Drift(1.0)]).chain(back)
+        const STAGES: [Stage; 7] = [
+            Kick(0.5),
+            Counterkick(0.5),
+            Lift(0.5),
+            Drift(1.0),
+            Lift(0.5),
+            Counterkick(0.5),
+            Kick(0.5),
+        ];
+        let normal = self.liquid.parameters().is_normal();
+        let needed = move |stage: &Stage| !normal || matches!(stage, Kick(_) | Drift(_));
+        STAGES.into_iter().filter(needed)
     }
 
     fn prepare<E: Executor>(
@@ -159,7 +171,13 @@ impl<A: Arithmetic, const D: usize, const FRICTION: bool> Model<A, D> for Double
     ) -> Result<(), Fault> {
         let particles = &mut system.particles;
         match stage {
-            Kick(_) => exec.points(&updates::Kick::<false>, particles),
+            Kick(c) => {
+                exec.points(&updates::Kick::<false>, particles)?;
+                match self.liquid.hold(c) {
+                    Some(hold) if FRICTION => exec.points(&hold, particles),
+                    _ => Ok(()),
+                }
+            }
             Counterkick(_) => exec.points(&updates::Kick::<true>, particles),
             Drift(c) => exec.points(&self.liquid.drift(c), particles),
             Lift(share) => {
@@ -183,6 +201,7 @@ impl<A: Arithmetic, const D: usize, const FRICTION: bool> Model<A, D> for Double
         let mut energies = energy::energies::<A, true, D>(p, system)?;
         if FRICTION {
             energies[energy::HEAT] = energy::heat(p, system);
+            energies[energy::HEAT + 1] = energy::taken(p, system);
         }
         Ok(energies)
     }

@@ -5,10 +5,11 @@ use super::fields::{
     FLUXES, GRADIENT, INFLOW, INVERSE, ONE, ONE_RATE, PULL, RATES, SUMS,
 };
 use super::helium::Helium;
-use super::parameters::Operators;
+use super::parameters::{HeliumParameters, Operators};
 use super::passes::{Carrier, Fluxes, Sums};
+use super::walls::metres;
 use crate::fault::{Fault, FaultKind};
-use crate::fields::{IMPULSE, VELOCITY};
+use crate::fields::{IMPULSE, POSITION, VELOCITY};
 use crate::lift::lift;
 use crate::matrix::{damped_inverse, trace};
 use crate::number::{Arithmetic, Quantity, Word, root};
@@ -135,19 +136,37 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for NoFluxes {
     }
 }
 
-/// C_a ← 1 - Σ V0 W.
-#[derive(Clone, Copy, Debug)]
-pub struct SetConstant;
+values! {
+    /// Sums over the neighbours of a place.
+    pub struct PlacedSums {
+        sums: Sums<T, D>,
+        position: [T; D],
+    }
+}
 
-impl<A: Arithmetic, const D: usize> PointPass<A, D> for SetConstant {
-    type Read<T: Copy> = Sums<T, D>;
+/// C_a ← 1 + p/(ρ0 u_1²) - Σ V0 W, with the first pressure p.
+#[derive(Clone, Debug)]
+pub struct SetConstant<const D: usize> {
+    pub(super) parameters: HeliumParameters<D>,
+}
+
+impl<A: Arithmetic, const D: usize> PointPass<A, D> for SetConstant<D> {
+    type Read<T: Copy> = PlacedSums<T, D>;
     type Write<T: Copy> = T;
-    const READ: &'static [usize] = &[SUMS];
+    const READ: &'static [usize] = &[SUMS, POSITION];
     const WRITE: &'static [usize] = &[DENSITY_CONSTANT];
-    #[inline(always)]
-    fn at(&self, _: u64, sums: &Sums<A::Word, D>, constant: &mut A::Word) -> Result<(), Fault> {
+    fn at(
+        &self,
+        id: u64,
+        read: &PlacedSums<A::Word, D>,
+        constant: &mut A::Word,
+    ) -> Result<(), Fault> {
+        let p = &self.parameters;
+        let x = metres(&read.position, p.scale.length_quantum());
         let one = A::Word::from_whole_quanta(ONE as i64);
-        *constant = one.plus(sums.density.negated());
+        let first = one.add_rounded(p.first_compression(&x) * ONE);
+        let first = first.ok_or(Fault::new(FaultKind::TermRange, id))?;
+        *constant = first.plus(read.sums.density.negated());
         Ok(())
     }
 }

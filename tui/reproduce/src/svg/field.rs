@@ -1,4 +1,4 @@
-//! Pictures of particles, coloured by a value, with axes in metres and one colour bar.
+//! Pictures of particles, coloured by a value, with axes and one colour bar.
 
 use super::axis::Axis;
 use super::{open, text};
@@ -46,6 +46,16 @@ impl Field {
     fn height(&self, width: f64) -> f64 {
         let [low, high] = self.bounds;
         width * (high[1] - low[1]) / (high[0] - low[0])
+    }
+
+    /// The unit of its axes, of which so many are a metre: small pictures have millimetres.
+    fn unit(&self) -> (f64, &'static str) {
+        let corners = self.bounds.as_flattened().iter();
+        if corners.fold(0.0, |most: f64, x| most.max(x.abs())) < 0.1 {
+            (1e3, "mm")
+        } else {
+            (1.0, "m")
+        }
     }
 
     /// The picture with its upper left corner at the origin.
@@ -107,8 +117,10 @@ impl Field {
     fn frame(&self, out: &mut String, width: f64) {
         let [low, high] = self.bounds;
         let height = self.height(width);
+        let (unit, _) = self.unit();
         let axis = |k: usize, pixels| {
-            Axis::new(std::iter::empty(), Some([low[k], high[k]]), false, pixels)
+            let range = [low[k] * unit, high[k] * unit];
+            Axis::new(std::iter::empty(), Some(range), false, pixels)
         };
         let (x, y) = (axis(0, [0.0, width]), axis(1, [height, 0.0]));
         let mut ticks = String::new();
@@ -198,18 +210,35 @@ fn colour_bar(out: &mut String, field: &Field, width: f64, y: f64) {
     }
     let _ = write!(
         out,
-        "\n<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text><text x=\"{:.1}\" y=\"{:.1}\">axes: x and y, m</text>\n",
+        "\n<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text><text x=\"{:.1}\" y=\"{:.1}\">axes: x and y, {}</text>\n",
         x - 14.0,
         y + 11.0,
         text::content(&field.label),
         x + long + 14.0,
         y + 11.0,
+        field.unit().1,
     );
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Field, fields};
+
+    #[test]
+    fn small_pictures_have_axes_in_millimetres_and_no_powers_of_ten() {
+        let field = Field {
+            bounds: [[-0.018, 0.0], [0.018, 0.028]],
+            ..Field::default()
+        };
+        let svg = fields(&[field], 1, 100.0);
+        assert!(svg.contains("axes: x and y, mm"), "{svg}");
+        assert!(svg.contains(">10</text>"), "{svg}");
+        let field = Field {
+            bounds: [[0.0; 2], [1.0; 2]],
+            ..Field::default()
+        };
+        assert!(fields(&[field], 1, 100.0).contains("axes: x and y, m<"));
+    }
 
     #[test]
     fn a_picture_holds_every_particle_it_has_room_for_and_no_more_than_one_a_pixel() {

@@ -11,6 +11,7 @@ pub mod echo;
 pub mod edge;
 pub mod entropy;
 mod flow;
+pub mod fountain;
 pub mod gresho;
 pub mod plate;
 pub mod sound;
