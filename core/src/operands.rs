@@ -67,10 +67,15 @@ impl<'a, W: Word> Operands<'a, W> {
                 |c| words[c],
             );
         }
-        V::from_fn(|c| {
-            let (k, c) = operand_of(&self.read_each, c);
-            self.read[k][place * self.read_each[k] + c]
-        })
+        let mut walk = Walk::default();
+        // Numbers are asked for one after another.
+        V::from_fn(
+            #[inline(always)]
+            |_| {
+                let (k, c) = walk.next(&self.read_each);
+                self.read[k][place * self.read_each[k] + c]
+            },
+        )
     }
 
     /// What is to be written of the particle in this place, as it is.
@@ -84,10 +89,14 @@ impl<'a, W: Word> Operands<'a, W> {
                 |c| words[c],
             );
         }
-        V::from_fn(|c| {
-            let (k, c) = operand_of(&self.write_each, c);
-            self.write[k][place * self.write_each[k] + c]
-        })
+        let mut walk = Walk::default();
+        V::from_fn(
+            #[inline(always)]
+            |_| {
+                let (k, c) = walk.next(&self.write_each);
+                self.write[k][place * self.write_each[k] + c]
+            },
+        )
     }
 
     /// Writes.
@@ -100,20 +109,30 @@ impl<'a, W: Word> Operands<'a, W> {
             }
             return;
         }
+        let mut walk = Walk::default();
         for c in 0..V::COUNT {
-            let (k, within) = operand_of(&self.write_each, c);
+            let (k, within) = walk.next(&self.write_each);
             self.write[k][place * self.write_each[k] + within] = values.get(c);
         }
     }
 }
 
-/// Which operand holds number c, and which of its numbers it is.
-#[inline(always)]
-fn operand_of(each: &[usize; MAX_OPERANDS], mut c: usize) -> (usize, usize) {
-    let mut k = 0;
-    while c >= each[k] {
-        c -= each[k];
-        k += 1;
+/// Where the next number of a particle is: in which operand, and which of its numbers it is.
+#[derive(Default)]
+struct Walk {
+    operand: usize,
+    within: usize,
+}
+
+impl Walk {
+    #[inline(always)]
+    fn next(&mut self, each: &[usize; MAX_OPERANDS]) -> (usize, usize) {
+        // A field that these particles do not have holds no numbers.
+        while self.within >= each[self.operand] {
+            self.operand += 1;
+            self.within = 0;
+        }
+        self.within += 1;
+        (self.operand, self.within - 1)
     }
-    (k, c)
 }

@@ -12,7 +12,7 @@
 pub trait Values<T: Copy>: Copy {
     /// How many.
     const COUNT: usize;
-    /// Of the numbers `value(0)`, `value(1)`, …
+    /// Of the numbers `value(0)`, `value(1)`, …, which are asked for in this order, each once.
     fn from_fn(value: impl FnMut(usize) -> T) -> Self;
     /// Number k.
     fn get(&self, k: usize) -> T;

@@ -172,7 +172,8 @@ fn an_unknown_name_is_answered_with_the_nearest_one() {
     let error = resolve("dam-brake").expect_err("no such scene");
     assert_eq!(
         error.to_string(),
-        "error: no scene is called `dam-brake`\nhelp: did you mean `dam-break`?\nhelp: the scenes are `dam-break`, `dam-break-3d`, `colliding-drops`, `rotating-drop`, `gresho-vortex`, `kepler-ring`, `beryllium-plate`, `twisting-column`, `colliding-rings`, `cantilever`, `taylor-couette`, `lid-driven-cavity`, `second-sound`, `second-sound-steep` and `counterflow`; a file is given by its path"
+        "error: no scene is called `dam-brake`\nhelp: did you mean `dam-break`?\nhelp: the scenes are `dam-break`, `dam-break-3d`, `colliding-drops`, `rotating-drop`, `gresho-vortex`, `kepler-ring`, `beryllium-plate`, `twisting-column`, `colliding-rings`, `cantilever`, `taylor-couette`, `lid-driven-cavity`, `second-sound`, `second-sound-steep`, \
+         `counterflow`, `normal-cavity` and `fountain`; a file is given by its path"
     );
     assert_eq!(
         resolve("dam-break").expect("a scene of the catalogue"),

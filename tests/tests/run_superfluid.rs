@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 
 /// Golden values, each with a line in the changelog when it changes. Small editions of the scenes:
 /// name, what is set, steps, digests at home and after them.
-const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 5] = [
+const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 7] = [
     (
         "second-sound",
         &["particle_spacing=0.0005"],
@@ -62,6 +62,24 @@ const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 5] = [
         [
             "64569bcf3fcee3bb9ad455dcdeee4635",
             "5cab135d76294804f7dfae00478b54c5",
+        ],
+    ),
+    (
+        "fountain",
+        &["particle_spacing=0.0004"],
+        60,
+        [
+            "86e161a5b66be33b18b7b8da6ed153a4",
+            "f00d0f9e5e7be5d953f245dd0fdb5ad6",
+        ],
+    ),
+    (
+        "normal-cavity",
+        &["particle_spacing=0.1"],
+        100,
+        [
+            "b58217df86be6480b650dd3affb661c5",
+            "59f068503d59c419815f86bfd610058e",
         ],
     ),
 ];
@@ -119,6 +137,16 @@ fn golden_digests_of_counterflow_on_every_executor() {
 #[test]
 fn golden_digests_of_helium_with_friction_on_every_executor() {
     check(4, false);
+}
+
+#[test]
+fn golden_digests_of_the_fountain_on_every_executor() {
+    check(5, false);
+}
+
+#[test]
+fn golden_digests_of_the_normal_cavity_on_every_executor() {
+    check(6, false);
 }
 
 #[test]

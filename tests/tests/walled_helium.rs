@@ -236,7 +236,10 @@ fn a_heater_gives_its_power() {
     let inner = |e: loschmidt_core::Energies| e.total() - e.get("drive");
     let gained = inner(after) - inner(before);
     println!("{gained:e} of {given:e}");
-    assert!((gained - given).abs() < 1e-6 * given, "{gained:e} {given:e}");
+    assert!(
+        (gained - given).abs() < 1e-6 * given,
+        "{gained:e} {given:e}"
+    );
 }
 
 #[test]
@@ -295,7 +298,10 @@ fn a_superleak_holds_the_normal_component_and_lets_the_other_pass() {
     let momentum = normal * v + (1.0 - normal) * u;
     let expected = v - momentum * (1.0 - (-10.0 * step / time).exp());
     println!("{velocity} {expected}");
-    assert!((velocity - expected).abs() < 1e-3 * v, "{velocity} {expected}");
+    assert!(
+        (velocity - expected).abs() < 1e-3 * v,
+        "{velocity} {expected}"
+    );
 }
 
 #[test]
@@ -308,7 +314,10 @@ fn liquid_that_begins_with_its_hydrostatic_pressure_stays_at_rest() {
         parameters.surface = surface;
         let mut state = loschmidt_tests::bodies::block(counts);
         let factor = SPACING / loschmidt_tests::bodies::SPACING;
-        state.fluid.iter_mut().for_each(|x| *x = x.map(|x| x * factor));
+        state
+            .fluid
+            .iter_mut()
+            .for_each(|x| *x = x.map(|x| x * factor));
         wall_in(&mut state, counts);
         let mut helium = plain(Superfluid::<Fixed, 2>::new(parameters).unwrap(), &state);
         steps(&mut helium, 600);

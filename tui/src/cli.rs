@@ -106,7 +106,8 @@ impl SceneArguments {
 #[derive(Args, Debug)]
 pub struct ReproduceArguments {
     /// What to reproduce: all, or any of fig1 … fig6, table2 (with Fig. 7), kepler, claims, echo,
-    /// work; plate, column, cantilever, couette, cavity, or these five as solids; second-sound
+    /// work; plate, column, cantilever, couette, cavity, or these five as solids;
+    /// normal-cavity, second-sound, fountain, or these three as helium
     #[arg(default_value = "all", value_parser = target_names())]
     pub targets: Vec<String>,
     /// Coarser spacings: each paper within five minutes on two processors

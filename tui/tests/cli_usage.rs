@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
 
-const CATALOGUE: [&str; 15] = [
+const CATALOGUE: [&str; 17] = [
     "dam-break",
     "dam-break-3d",
     "colliding-drops",
@@ -21,6 +21,8 @@ const CATALOGUE: [&str; 15] = [
     "second-sound",
     "second-sound-steep",
     "counterflow",
+    "normal-cavity",
+    "fountain",
 ];
 
 /// Makes a few dozen steps of a scene of the catalogue.
@@ -116,6 +118,12 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
         assert_eq!(viscous, text.contains("relaxation time"), "{text}");
         let helium = text.contains("second sound");
         assert_eq!(helium, text.contains("superfluid helium at"), "{text}");
+        assert_eq!(name == "fountain", text.contains("superleak"), "{text}");
+        assert_eq!(
+            name == "normal-cavity",
+            text.contains("a lid of 1.000 m/s"),
+            "{text}"
+        );
     }
     let paper = ["check", "beryllium-plate", "--preset", "paper"];
     let text = place.call(&paper).with_code(0).stdout;

@@ -87,14 +87,38 @@ impl HeliumScales {
         let flow = setup::flow_speeds(&laws, excess, counterflow, fastest(frame));
         // A flow of this speed turns into waves of about this amplitude, and the other way round.
         let normal = laws.normal_fraction;
-        let wave = flow.counterflow / laws.second_sound() * ((1.0 - normal) / normal);
+        let sound = laws.second_sound();
+        let wave = if sound > 0.0 {
+            flow.counterflow / sound * ((1.0 - normal) / normal)
+        } else {
+            0.0
+        };
         Self {
             laws,
             flow,
             entropy: laws.entropy * excess.max(wave.min(1.0)),
         }
     }
+
+    /// Of helium that is at rest at home and comes to about this speed, m/s, by a heater or by
+    /// gravity: s0 times a difference of temperatures is the energy per mass that drives it, of which
+    /// the flow has a part.
+    fn driven(self, speed: f64) -> Self {
+        let laws = self.laws;
+        let warming = DRIVING * speed * speed / laws.entropy;
+        Self {
+            flow: FlowSpeeds {
+                whole: speed,
+                counterflow: speed,
+            },
+            entropy: laws.heat_capacity / laws.temperature * warming,
+            ..self
+        }
+    }
 }
+
+/// What drives a flow over the square of its speed, in the scene `fountain` about.
+const DRIVING: f64 = 4.0;
 
 /// What stays the same in all pictures of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,17 +173,6 @@ impl Home {
             .map_or(nothing, |b| b.grown(0.5 * spacing, dimension));
         let walls =
             Box3::around(frame.wall_position.iter()).map(|b| b.grown(0.5 * spacing, dimension));
-        let helium = scene
-            .superfluid
-            .map(|it| HeliumScales::of(it.helium(), frame));
-        let shown = match (walls, helium) {
-            (Some(walls), _) => walls.joined(fluid),
-            (None, Some(scales)) => fluid.grown(spread(scales.flow.whole, fluid, span), dimension),
-            (None, None) if scene.solid.is_some() => {
-                fluid.grown(swing(frame, fluid, span), dimension)
-            }
-            (None, None) => fluid.grown(free_flight(frame, fluid, span), dimension),
-        };
         let gravity = scene.gravity.uniform;
         let up = (0..3)
             .filter(|&k| gravity[k] != 0.0)
@@ -173,6 +186,23 @@ impl Home {
         let fall = 2.0 * gravity[up].abs() * fluid.size()[up];
         let speed = fall.sqrt().max(2.0 * fastest(frame));
         let speed = speed.max(fastest_wall(scene, frame));
+        let heated = scene.superfluid.is_some_and(|it| it.heater.is_some());
+        let helium = scene.superfluid.map(|it| {
+            let scales = HeliumScales::of(it.helium(), frame);
+            if heated && speed > 0.0 {
+                scales.driven(speed)
+            } else {
+                scales
+            }
+        });
+        let shown = match (walls, helium) {
+            (Some(walls), _) => walls.joined(fluid),
+            (None, Some(scales)) => fluid.grown(spread(scales.flow.whole, fluid, span), dimension),
+            (None, None) if scene.solid.is_some() => {
+                fluid.grown(swing(frame, fluid, span), dimension)
+            }
+            (None, None) => fluid.grown(free_flight(frame, fluid, span), dimension),
+        };
         Self {
             name: scene.name.clone(),
             dimension,

@@ -25,6 +25,8 @@ pub fn helium_parameters<const D: usize>(
     let lids: Vec<Vector3> = scene.regions.iter().map(lid_velocity).collect();
     let whole = fastest(initial).max(largest(&lids));
     let flow = flow_speeds(&helium, excess, counterflow, whole);
+    // Walls that pull are wet from the start: nothing is to be filled in their surroundings.
+    let suction = superfluid.is_some_and(|it| it.walls == WallPressure::PushAndPull);
     HeliumParameters {
         support_radius: scene.support_radius(),
         particle_spacing: scene.particle_spacing,
@@ -45,8 +47,8 @@ pub fn helium_parameters<const D: usize>(
             .iter()
             .map(|wall| wall_part(scene, wall))
             .collect(),
-        suction: superfluid.is_some_and(|it| it.walls == WallPressure::PushAndPull),
-        lattice_sum: if initial.wall.is_empty() {
+        suction,
+        lattice_sum: if initial.wall.is_empty() || suction {
             0.0
         } else {
             scene.lattice_sum()
@@ -126,7 +128,11 @@ pub fn flow_speeds(helium: &Helium, excess: f64, counterflow: f64, whole: f64) -
         0.0
     };
     let u = counterflow.max(wave);
-    let driven = DRIVEN * ratio * (u * u) / sound;
+    let driven = if sound > 0.0 {
+        DRIVEN * ratio * (u * u) / sound
+    } else {
+        0.0
+    };
     let speeds = FlowSpeeds {
         whole: driven.min(2.0 * u).max(2.0 * whole),
         counterflow: u.max(whole),

@@ -10,7 +10,7 @@ use std::fs;
 /// Title of both pages.
 const TITLE: &str = "Globally time-reversible fluid simulations, run again";
 
-const INTRODUCTION: &str = "Every figure and table of O. Kincl & M. Pavelka, Comput. Phys. Commun. 284 (2023) 108593, and the elastic bodies and viscous fluids of Kincl, Peshkov, Pavelka & Klika, Appl. Math. Comput. 439 (2023) 127579, run again by `loschmidt reproduce`: our number beside the paper's and what was asked of it.";
+const INTRODUCTION: &str = "Every figure and table of O. Kincl & M. Pavelka, Comput. Phys. Commun. 284 (2023) 108593, and the elastic bodies and viscous fluids of Kincl, Peshkov, Pavelka & Klika, Appl. Math. Comput. 439 (2023) 127579, and the superfluid helium of Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, run again by `loschmidt reproduce`: our number beside the paper's and what was asked of it.";
 
 fn size(lab: &Lab<'_>) -> &'static str {
     lab.size(

@@ -75,6 +75,10 @@ targets! {
     /// Figs. 11 to 14 of the paper on solids.
     Cavity = "cavity", "viscous: the lid-driven cavity (Figs. 11 to 14 of the second paper)",
         targets::cavity::cavity;
+    /// Figs. 1 to 4 of the paper on superfluid helium.
+    NormalCavity = "normal-cavity",
+        "helium: the lid-driven cavity (Figs. 1 to 4 of the third paper)",
+        targets::cavity::normal_cavity;
     /// Figs. 5 and 6 of the paper on superfluid helium.
     Sound = "second-sound", "helium: second sound (Figs. 5 and 6 of the third paper)",
         targets::sound::sound;
@@ -84,17 +88,24 @@ targets! {
 }
 
 /// Names for several targets at once.
-pub const GROUPS: [(&str, &str, &[Target]); 1] = [(
-    "solids",
-    "the second paper: plate, column, cantilever, couette and cavity",
-    &[
-        Target::Plate,
-        Target::Column,
-        Target::Cantilever,
-        Target::Couette,
-        Target::Cavity,
-    ],
-)];
+pub const GROUPS: [(&str, &str, &[Target]); 2] = [
+    (
+        "solids",
+        "the second paper: plate, column, cantilever, couette and cavity",
+        &[
+            Target::Plate,
+            Target::Column,
+            Target::Cantilever,
+            Target::Couette,
+            Target::Cavity,
+        ],
+    ),
+    (
+        "helium",
+        "the third paper: normal-cavity, second-sound and fountain",
+        &[Target::NormalCavity, Target::Sound, Target::Fountain],
+    ),
+];
 
 impl Target {
     /// The target of this name.

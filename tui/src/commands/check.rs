@@ -7,7 +7,8 @@ use crate::progress::duration;
 use loschmidt_core::Fault;
 use loschmidt_runner::run::Plan;
 use loschmidt_runner::scene::{
-    InitialState, Relaxation, Scene, Solid, Superfluid, Viscous, load, resolve,
+    InitialState, Region, RegionKind, Relaxation, Scene, Solid, Superfluid, Velocity, Viscous,
+    load, resolve,
 };
 use loschmidt_runner::setup;
 use loschmidt_runner::{Options, Player};
@@ -191,15 +192,22 @@ fn helium(scene: &Scene, superfluid: &Superfluid) -> String {
     let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
     let helium = superfluid.helium();
     let (chi, t) = (helium.normal_fraction, helium.temperature);
-    line("material", format!("superfluid helium at {t} K"));
+    let second = helium.second_sound();
+    let material = if second > 0.0 {
+        format!("superfluid helium at {t} K")
+    } else {
+        "the normal component of helium alone".to_owned()
+    };
+    line("material", material);
     line("  normal component", format!("{:.2} %", 100.0 * chi));
     line("  first sound", format!("{:.2} m/s", helium.sound_speed));
-    let second = helium.second_sound();
-    let crossing = scene.support_radius() / (second * scene.time_step());
-    line(
-        "  second sound",
-        format!("{second:.2} m/s, {crossing:.0} steps for a support radius"),
-    );
+    if second > 0.0 {
+        let crossing = scene.support_radius() / (second * scene.time_step());
+        line(
+            "  second sound",
+            format!("{second:.2} m/s, {crossing:.0} steps for a support radius"),
+        );
+    }
     let slope = helium.fraction_slope;
     if slope != 0.0 {
         let ends = [-chi / slope, (1.0 - chi) / slope];
@@ -214,7 +222,37 @@ fn helium(scene: &Scene, superfluid: &Superfluid) -> String {
     }
     let operators = superfluid.operators.word();
     line("  operators", operators.to_owned());
+    if let Some(heater) = superfluid.heater {
+        line("heater", format!("{} W", heater.power));
+    }
+    if let Some(leak) = superfluid.superleak {
+        let share = scene.time_step() / leak.time;
+        line(
+            "superleak",
+            format!("holds for {share:.3} of its times in a step"),
+        );
+    }
+    walls(scene, &mut line);
     text
+}
+
+/// What the walls of helium are, a line for each region of them.
+fn walls(scene: &Scene, line: &mut impl FnMut(&str, String)) {
+    let wall = |region: &&Region| region.kind == RegionKind::Wall;
+    for (n, region) in scene.regions.iter().filter(wall).enumerate() {
+        let rubs = match (region.smooth, region.velocity) {
+            (true, _) => "smooth".to_owned(),
+            (false, Some(Velocity::Uniform(v))) => {
+                format!("a lid of {:.3} m/s", v[0].hypot(v[1]).hypot(v[2]))
+            }
+            (false, _) => "rough".to_owned(),
+        };
+        let heat = match region.conduction {
+            Some(beta) => format!("takes heat with {beta} W/(m K²)"),
+            None => "adiabatic".to_owned(),
+        };
+        line(&format!("wall {n}"), format!("{rubs}, {heat}"));
+    }
 }
 
 /// What the bodies are made of, those of one material together, on the lattice of the scene.

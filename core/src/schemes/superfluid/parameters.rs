@@ -101,7 +101,8 @@ pub struct HeliumParameters<const D: usize> {
     /// Whether walls pull where the liquid beside them is stretched.
     pub suction: bool,
     /// Σ V0 W over all other nodes of the lattice of the walls, which a wall would have as its
-    /// density in full surroundings; 0 where walls are on no lattice.
+    /// density in full surroundings; 0 where their first surroundings are full, and where walls are
+    /// on no lattice.
     pub lattice_sum: f64,
     /// A heater.
     pub heater: Option<Heater<D>>,

@@ -1,4 +1,5 @@
-//! The lid-driven cavity: Figs. 11 to 14 of the paper on solids and fluids.
+//! The lid-driven cavity: Figs. 11 to 14 of the paper on solids and fluids, and Figs. 1 to 4 of that
+//! on superfluid helium.
 
 use super::flow::{Budget, Flow, march};
 use super::slope;
@@ -14,11 +15,44 @@ const STEADY: f64 = 0.7;
 /// Points of a drawn line.
 const POINTS: usize = 99;
 
+/// The head of the table of distances.
+const HEAD: [&str; 8] = [
+    "Re",
+    "dr",
+    "walls",
+    "u largest",
+    "u rms",
+    "v largest",
+    "v rms",
+    "open balance, of the work",
+];
+
 const LINES: [MiddleLine; 2] = [MiddleLine::Vertical, MiddleLine::Horizontal];
 
-/// A run: its Reynolds number, particles along a side, end in s, and what else is set.
+/// A fluid in the box: its scene, and the key of its viscosity where the lid, the box and the density
+/// are 1.
+#[derive(Clone, Copy)]
+struct Fluid {
+    scene: &'static str,
+    viscosity: &'static str,
+}
+
+/// By the equations of solids.
+const VISCOUS: Fluid = Fluid {
+    scene: "lid-driven-cavity",
+    viscosity: "viscous.viscosity",
+};
+
+/// The normal component of helium alone.
+const NORMAL: Fluid = Fluid {
+    scene: "normal-cavity",
+    viscosity: "superfluid.viscosity",
+};
+
+/// A run: its fluid, Reynolds number, particles along a side, end in s, and what else is set.
 #[derive(Clone, Copy)]
 struct Setting<'a> {
+    fluid: Fluid,
     reynolds: u32,
     across: u32,
     end: f64,
@@ -36,6 +70,7 @@ struct Seen {
     /// The flow at the end.
     speed: Field,
     distortion: Field,
+    streamlines: Vec<Vec<[f64; 2]>>,
 }
 
 /// A place on a line, and the velocity that counts there.
@@ -44,6 +79,48 @@ fn on_line(flow: &Flow, line: MiddleLine, place: f64) -> f64 {
         MiddleLine::Vertical => flow.velocity_at([0.5, place])[0],
         MiddleLine::Horizontal => flow.velocity_at([place, 0.5])[1],
     }
+}
+
+/// Where streamlines begin: from the middle of the vortex outwards, and in the lower corners.
+const SEEDS: [[f64; 2]; 13] = [
+    [0.58, 0.68],
+    [0.58, 0.62],
+    [0.58, 0.55],
+    [0.58, 0.47],
+    [0.58, 0.38],
+    [0.58, 0.29],
+    [0.58, 0.2],
+    [0.58, 0.12],
+    [0.58, 0.06],
+    [0.95, 0.05],
+    [0.9, 0.07],
+    [0.03, 0.03],
+    [0.05, 0.06],
+];
+
+/// The streamline through a place, until it has come round or to the edge.
+fn streamline(flow: &Flow, seed: [f64; 2]) -> Vec<[f64; 2]> {
+    const STEP: f64 = 0.01;
+    let along = |[x, y]: [f64; 2]| {
+        let [u, v] = flow.velocity_at([x, y]);
+        let speed = u.hypot(v).max(1e-9);
+        [u / speed, v / speed]
+    };
+    let (mut line, mut x) = (vec![seed], seed);
+    for n in 0..400 {
+        let [u, v] = along(x);
+        let [u, v] = along([x[0] + 0.5 * STEP * u, x[1] + 0.5 * STEP * v]);
+        x = [x[0] + STEP * u, x[1] + STEP * v];
+        if !x.iter().all(|x| (0.005..0.995).contains(x)) {
+            break;
+        }
+        line.push(x);
+        let home = (x[0] - seed[0]).hypot(x[1] - seed[1]);
+        if n > 5 && home < 0.75 * STEP {
+            break;
+        }
+    }
+    line
 }
 
 fn field(flow: &Flow, setting: Setting<'_>, label: &str, value: impl Fn(usize) -> f64) -> Field {
@@ -63,21 +140,26 @@ fn field(flow: &Flow, setting: Setting<'_>, label: &str, value: impl Fn(usize) -
 fn run(lab: &mut Lab<'_>, setting: Setting<'_>) -> Result<Seen, LabError> {
     let mut set = vec![
         format!("particle_spacing={}", 1.0 / f64::from(setting.across)),
-        format!("viscous.viscosity={}", 1.0 / f64::from(setting.reynolds)),
+        format!(
+            "{}={}",
+            setting.fluid.viscosity,
+            1.0 / f64::from(setting.reynolds)
+        ),
         format!("end={}", setting.end),
     ];
     set.extend(setting.set.iter().map(|&set| set.to_owned()));
     let options = lab.options();
-    let mut player = lab.player(&scene("lid-driven-cavity", &set)?, options)?;
+    let mut player = lab.player(&scene(setting.fluid.scene, &set)?, options)?;
     let reference = LINES.map(|line| ghia(line, setting.reynolds));
     let place = |k: usize| (k + 1) as f64 / (POINTS + 1) as f64;
     // Means at the places of the reference, and along the lines.
     let mut means = reference.clone().map(|curve| vec![0.0; curve.len()]);
     let mut lines = LINES.map(|_| vec![0.0; POINTS]);
     let mut count = 0.0_f64;
-    let mut fields = None;
+    let (mut fields, mut streamlines) = (None, Vec::new());
     let name = format!(
-        "cavity, Re {}, 1/{} {}",
+        "{}, Re {}, 1/{} {}",
+        setting.fluid.scene,
         setting.reynolds,
         setting.across,
         setting.set.join(" ")
@@ -95,8 +177,9 @@ fn run(lab: &mut Lab<'_>, setting: Setting<'_>) -> Result<Seen, LabError> {
             }
         }
         if time > setting.end * (1.0 - 0.5 / LOOKS as f64) {
+            streamlines = SEEDS.map(|seed| streamline(flow, seed)).to_vec();
             let speed = |n: usize| flow.velocity[n][0].hypot(flow.velocity[n][1]);
-            let xy = |n: usize| flow.distortion[n][1];
+            let xy = |n: usize| flow.distortion.get(n).map_or(0.0, |a| a[1]);
             fields = Some([
                 Field {
                     range: [0.0, 0.6],
@@ -120,6 +203,7 @@ fn run(lab: &mut Lab<'_>, setting: Setting<'_>) -> Result<Seen, LabError> {
         budget,
         speed: Field::default(),
         distortion: Field::default(),
+        streamlines,
     };
     if let Some([speed, distortion]) = fields {
         (seen.speed, seen.distortion) = (speed, distortion);
@@ -156,6 +240,7 @@ pub fn cavity(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         let mut runs = Vec::new();
         for &across in sizes[n] {
             let setting = Setting {
+                fluid: VISCOUS,
                 reynolds,
                 across,
                 end,
@@ -168,35 +253,28 @@ pub fn cavity(lab: &mut Lab<'_>) -> Result<Section, LabError> {
                 seen.largest[0].max(seen.largest[1]),
             ]);
             if reynolds == 100 && across == 40 {
-                at_100(lab, &mut section, &seen)?;
+                at_100(&mut section, &seen);
+                lab.figure(
+                    &mut section,
+                    "cavity-energies",
+                    &seen.budget.chart("Fig. 13").svg(),
+                    "Re 100, dr = 1/40. What the lid puts in becomes heat.",
+                )?;
             }
             runs.push((across, seen));
         }
         if errors.is_empty() {
             continue;
         }
-        convergence(&mut section, reynolds, &errors);
-        lines(lab, &mut section, reynolds, &runs)?;
+        convergence(&mut section, reynolds, &errors, "a zigzag");
+        lines(lab, &mut section, ["cavity", "Fig. 14"], reynolds, &runs)?;
         if let Some((_, finest)) = runs.pop() {
             pictures[0].push(finest.speed);
             pictures[1].push(finest.distortion);
         }
     }
     variants(lab, &mut rows)?;
-    section.table(
-        "Distance from the reference, m/s",
-        &[
-            "Re",
-            "dr",
-            "walls",
-            "u largest",
-            "u rms",
-            "v largest",
-            "v rms",
-            "open balance, of the work",
-        ],
-        rows,
-    );
+    section.table("Distance from the reference, m/s", &HEAD, rows);
     let [speeds, distortions] = pictures;
     let captions = [
         "Fig. 11: speed at the end.",
@@ -217,6 +295,112 @@ pub fn cavity(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     Ok(section)
 }
 
+/// Figs. 1 to 4 of the paper on superfluid helium: the same box, with the normal component alone.
+pub fn normal_cavity(lab: &mut Lab<'_>) -> Result<Section, LabError> {
+    let mut section = Section::new(
+        "Superfluid helium, Figs. 1 to 4: the lid-driven cavity",
+        "Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, section III A: the two-fluid \
+         model without a superfluid component, in a box of 1 m under a lid of 1 m/s, against the \
+         velocities along the middle lines of Ghia, Ghia & Shin, J. Comput. Phys. 48 (1982) 387. h = \
+         3 dr, dummy walls six deep. Velocities are means over the last 0.3 of the run (10 s at Re \
+         100, 20 s at 400; the paper: 40 s).",
+    );
+    let sizes: [&[u32]; 2] = lab.size([&[20, 40], &[]], [&[42, 84, 168], &[42, 84, 168]]);
+    let slopes = ["0.998", "1.189"];
+    let (mut rows, mut speeds, mut curves) = (Vec::new(), Vec::new(), Vec::new());
+    for (n, (reynolds, end)) in [(100, 10.0), (400, 20.0)].into_iter().enumerate() {
+        let (mut errors, mut runs) = (Vec::new(), Vec::new());
+        for &across in sizes[n] {
+            let setting = Setting {
+                fluid: NORMAL,
+                reynolds,
+                across,
+                end,
+                set: &[],
+            };
+            let seen = run(lab, setting)?;
+            rows.push(row(setting, "dummies", &seen));
+            let largest = seen.largest[0].max(seen.largest[1]);
+            errors.push([1.0 / f64::from(across), largest]);
+            runs.push((across, seen));
+        }
+        if errors.is_empty() {
+            continue;
+        }
+        let paper = format!("{} for N from 24 to 336", slopes[n]);
+        convergence(&mut section, reynolds, &errors, &paper);
+        let figure = ["Fig. 1", "Fig. 2"][n];
+        lines(
+            lab,
+            &mut section,
+            ["normal-cavity", figure],
+            reynolds,
+            &runs,
+        )?;
+        let label = format!("Re {reynolds}");
+        let points = errors.iter().map(|[dr, e]| [1.0 / dr, *e]);
+        curves.push(svg::styled(&label, n, Style::LineDots, points));
+        if let Some((_, finest)) = runs.pop() {
+            balance(&mut section, reynolds, &finest);
+            let title = format!("Fig. 3: streamlines, Re {reynolds}");
+            let svg = streamlines(title, &finest.streamlines);
+            lab.figure(
+                &mut section,
+                &format!("normal-cavity-{reynolds}-lines"),
+                &svg,
+                "",
+            )?;
+            speeds.push(finest.speed);
+        }
+    }
+    section.table("Distance from the reference, m/s", &HEAD, rows);
+    let chart = Chart {
+        title: "Fig. 4: largest distance from the reference".to_owned(),
+        x_label: "N".to_owned(),
+        y_label: "m/s".to_owned(),
+        x_log: true,
+        y_log: true,
+        series: curves,
+        ..Chart::default()
+    };
+    lab.figure(&mut section, "normal-cavity-convergence", &chart.svg(), "")?;
+    let svg = svg::fields(&speeds, 2, 300.0);
+    lab.figure(
+        &mut section,
+        "normal-cavity-speed",
+        &svg,
+        "Speed at the end.",
+    )?;
+    Ok(section)
+}
+
+fn balance(section: &mut Section, reynolds: u32, seen: &Seen) {
+    section.check(
+        &format!("Re {reynolds}: energies and heat less the work of the lid, over the work"),
+        format!("{:.1e}", seen.budget.error),
+        "",
+        "at most 5e-3",
+        seen.budget.error.abs() <= 5e-3,
+    );
+}
+
+/// Streamlines in the box.
+fn streamlines(title: String, lines: &[Vec<[f64; 2]>]) -> String {
+    let chart = Chart {
+        title,
+        x_label: "x / m".to_owned(),
+        y_label: "y / m".to_owned(),
+        x_range: Some([0.0, 1.0]),
+        y_range: Some([0.0, 1.0]),
+        series: lines
+            .iter()
+            .map(|line| svg::line("", 0, line.iter().copied()))
+            .collect(),
+        ..Chart::default()
+    };
+    chart.svg()
+}
+
 /// Walls and relaxation as the paper has them.
 fn variants(lab: &mut Lab<'_>, rows: &mut Vec<Vec<String>>) -> Result<(), LabError> {
     let variants: [(&str, &[&str]); 2] = [
@@ -229,6 +413,7 @@ fn variants(lab: &mut Lab<'_>, rows: &mut Vec<Vec<String>>) -> Result<(), LabErr
     let count = lab.size(1, 2);
     for (label, set) in variants.into_iter().take(count) {
         let setting = Setting {
+            fluid: VISCOUS,
             reynolds: 100,
             across: 40,
             end: 10.0,
@@ -255,7 +440,7 @@ fn row(setting: Setting<'_>, walls: &str, seen: &Seen) -> Vec<String> {
 }
 
 /// What is asked at Re 100 with 40 particles along a side.
-fn at_100(lab: &Lab<'_>, section: &mut Section, seen: &Seen) -> Result<(), LabError> {
+fn at_100(section: &mut Section, seen: &Seen) {
     section.check(
         "Re 100, dr = 1/40: rms distance on the vertical and the horizontal line",
         format!("{:.4}, {:.4} m/s", seen.rms[0], seen.rms[1]),
@@ -270,16 +455,10 @@ fn at_100(lab: &Lab<'_>, section: &mut Section, seen: &Seen) -> Result<(), LabEr
         "at most 5e-3",
         seen.budget.error.abs() <= 5e-3,
     );
-    lab.figure(
-        section,
-        "cavity-energies",
-        &seen.budget.chart("Fig. 13").svg(),
-        "Re 100, dr = 1/40. What the lid puts in becomes heat.",
-    )
 }
 
 /// Fig. 13.
-fn convergence(section: &mut Section, reynolds: u32, errors: &[[f64; 2]]) {
+fn convergence(section: &mut Section, reynolds: u32, errors: &[[f64; 2]], paper: &str) {
     let logs = errors.iter().map(|[dr, e]| [dr.ln(), e.ln()]);
     let Some(order) = slope(logs) else {
         return;
@@ -288,7 +467,7 @@ fn convergence(section: &mut Section, reynolds: u32, errors: &[[f64; 2]]) {
     section.check(
         &format!("Re {reynolds}: order of the largest distance in the spacing"),
         format!("{order:.2}, down to {largest:.3} m/s"),
-        "a zigzag",
+        paper,
         "at least 0.7",
         order >= 0.7,
     );
@@ -298,6 +477,7 @@ fn convergence(section: &mut Section, reynolds: u32, errors: &[[f64; 2]]) {
 fn lines(
     lab: &Lab<'_>,
     section: &mut Section,
+    [file, figure]: [&str; 2],
     reynolds: u32,
     runs: &[(u32, Seen)],
 ) -> Result<(), LabError> {
@@ -307,7 +487,7 @@ fn lines(
     ];
     for (k, (name, x_label, y_label)) in axes.into_iter().enumerate() {
         let mut chart = Chart {
-            title: format!("Fig. 14: Re {reynolds}, the {name} middle line"),
+            title: format!("{figure}: Re {reynolds}, the {name} middle line"),
             x_label: x_label.to_owned(),
             y_label: y_label.to_owned(),
             ..Chart::default()
@@ -320,7 +500,7 @@ fn lines(
         let reference = ghia(LINES[k], reynolds).into_iter();
         let dots = svg::styled("Ghia et al. 1982", runs.len(), Style::Dots, reference);
         chart.series.push(dots);
-        let file = format!("cavity-{reynolds}-{name}");
+        let file = format!("{file}-{reynolds}-{name}");
         lab.figure(section, &file, &chart.svg(), "")?;
     }
     Ok(())

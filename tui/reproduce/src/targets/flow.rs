@@ -4,6 +4,7 @@ use crate::lab::{Lab, LabError};
 use crate::svg::{self, Chart, Series};
 use loschmidt_core::kernel::WendlandC2;
 use loschmidt_runner::Player;
+use loschmidt_runner::scene::{InitialState, InitialWall, Velocity};
 
 /// The particles of a flow and of its walls, and how fast they are or pretend to be.
 pub struct Flow {
@@ -21,8 +22,9 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// The present state of a player, whose first `flowing` particles are no walls.
-    pub fn of(player: &mut Player, flowing: usize) -> Self {
+    /// The present state of a player, whose first `flowing` particles are no walls; with walls that
+    /// are no particles, and how fast they pretend to be.
+    pub fn of(player: &mut Player, flowing: usize, walls: &[[[f64; 2]; 2]]) -> Self {
         let state = player.save();
         let all = 0..state.id.len();
         let support = player.scene().support_radius();
@@ -31,8 +33,15 @@ impl Flow {
         let unit = 2.0_f64.powi(-48);
         Self {
             flowing,
-            position: all.clone().map(|n| plane(state.position(n))).collect(),
-            velocity: all.map(|n| plane(state.velocity(n))).collect(),
+            position: all
+                .clone()
+                .map(|n| plane(state.position(n)))
+                .chain(walls.iter().map(|wall| wall[0]))
+                .collect(),
+            velocity: all
+                .map(|n| plane(state.velocity(n)))
+                .chain(walls.iter().map(|wall| wall[1]))
+                .collect(),
             distortion: words
                 .chunks_exact(4)
                 .map(|a| std::array::from_fn(|k| a[k] as f64 * unit))
@@ -72,6 +81,21 @@ impl Flow {
         let determinant = sum(&matrix[0]);
         right.map(|right| sum(&right) / determinant)
     }
+}
+
+/// Places of walls that are no particles, and their velocities.
+fn still_walls(player: &Player, initial: &InitialState) -> Vec<[[f64; 2]; 2]> {
+    let regions = &player.scene().regions;
+    let velocity = |place: usize| {
+        let before = |wall: &&InitialWall| wall.first <= place as u64;
+        let wall = initial.walls.iter().rev().find(before);
+        match wall.and_then(|wall| regions[wall.region].velocity) {
+            Some(Velocity::Uniform(velocity)) => plane(velocity),
+            _ => [0.0; 2],
+        }
+    };
+    let walls = initial.wall.iter().enumerate();
+    walls.map(|(n, x)| [plane(*x), velocity(n)]).collect()
 }
 
 fn plane(x: [f64; 3]) -> [f64; 2] {
@@ -138,6 +162,7 @@ pub fn march(
     let initial = player.scene().initial_state()?;
     let walls = initial.parts.get(1).map(|part| part.first as usize);
     let flowing = walls.unwrap_or(initial.fluid.len());
+    let still = still_walls(player, &initial);
     let steps = player.scene().steps_out();
     let mut budget = Budget::default();
     budget.take(player)?;
@@ -147,7 +172,7 @@ pub fn march(
         lab.advance(name, player, next - taken)?;
         taken = next;
         budget.take(player)?;
-        let flow = Flow::of(player, flowing);
+        let flow = Flow::of(player, flowing, &still);
         look(player.time(), &flow);
     }
     Ok(budget)

@@ -75,7 +75,7 @@ fn in_cell(x: &[f64; 3]) -> bool {
 }
 
 fn in_bath(x: &[f64; 3]) -> bool {
-    (0.006..0.017).contains(&x[0].abs()) && (0.001..0.0085).contains(&x[1])
+    (0.006..0.0135).contains(&x[0].abs()) && (0.001..0.0085).contains(&x[1])
 }
 
 fn mean(frame: &Frame, column: &str, inside: impl Fn(&[f64; 3]) -> bool) -> (f64, f64) {
@@ -97,7 +97,7 @@ fn field(frame: &Frame, column: &str, title: String, spacing: f64, zoom: bool) -
         bounds: if zoom {
             [[-0.004, 0.0015], [0.004, 0.0125]]
         } else {
-            [[-0.0186, -0.0006], [0.0186, 0.028]]
+            [[-0.015, -0.0006], [0.015, 0.028]]
         },
         diameter: spacing,
         points: frame.position.iter().map(plane).collect(),
