@@ -75,6 +75,9 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
         particles
             .put_given(&mut system.particles, &scale)
             .map_err(|particle| BuildError::Range { particle })?;
+        particles
+            .put_given(&mut system.walls, &scale)
+            .map_err(|particle| BuildError::Range { particle })?;
         for (w, x) in particles.wall.iter().enumerate() {
             let particle = (n + w) as u64;
             system.walls.position_mut()[w] =

@@ -1,6 +1,7 @@
 //! Fields of the state that a scene gives besides positions and velocities.
 
 use crate::scene::{InitialState, Vector3};
+use loschmidt_core::fields::Side;
 use loschmidt_core::number::Quantity;
 use loschmidt_core::set::Set;
 use loschmidt_core::{Arithmetic, Scale};
@@ -13,29 +14,37 @@ impl InitialState {
         field.map(|field| field.values.as_slice())
     }
 
-    /// Puts every given field that the particles have into the set, whatever its storage order.
+    /// Puts every given field that the particles have into the set, whatever its storage order; of
+    /// walls those that are given of walls.
     ///
     /// # Errors
     /// The id of a particle whose value is out of the number range.
     pub fn put_given<A: Arithmetic, const D: usize>(
         &self,
-        particles: &mut Set<'_, A, D>,
+        set: &mut Set<'_, A, D>,
         scale: &Scale,
     ) -> Result<(), u64> {
-        for given in &self.given {
-            let fields = particles.fields();
+        let all = match set.side() {
+            Side::Particles => &self.given,
+            Side::Walls => &self.wall_given,
+        };
+        for given in all {
+            let fields = set.fields();
             let Some(f) = fields.iter().position(|field| field.name == given.name) else {
                 continue;
             };
-            let each = fields[f].words(particles.side(), D);
+            let each = fields[f].words(set.side(), D);
             let quantum = fields[f].quantum.size(scale);
-            for place in 0..particles.len() {
-                let id = particles.id[place];
-                let value = given.values[id as usize];
-                for (c, x) in value.iter().enumerate().take(each) {
+            for place in 0..set.len() {
+                // Walls have no ids yet, and keep their order.
+                let (id, n) = match set.side() {
+                    Side::Particles => (set.id[place], set.id[place] as usize),
+                    Side::Walls => ((self.fluid.len() + place) as u64, place),
+                };
+                for (c, x) in given.values[n].iter().enumerate().take(each) {
                     let word = A::Word::ZERO.add_rounded(x / quantum);
                     let word = word.filter(|word| word.in_range()).ok_or(id)?;
-                    particles.words_mut(f)[place * each + c] = word;
+                    set.words_mut(f)[place * each + c] = word;
                 }
             }
         }

@@ -77,6 +77,7 @@ impl SavedState {
             walls: Vec::new(),
             parts: Vec::new(),
             given: Vec::new(),
+            wall_given: Vec::new(),
         }
     }
 

@@ -75,6 +75,8 @@ impl<M: Model<Fixed, D>, const D: usize> Plain<M, D> {
         velocities.zip(si).for_each(|(v, si)| *v = speed(si));
         let given = initial.put_given(&mut system.particles, &scale);
         given.expect("in range");
+        let given = initial.put_given(&mut system.walls, &scale);
+        given.expect("in range");
         let walls = system.walls.position_mut().iter_mut();
         walls.zip(&initial.wall).for_each(|(x, si)| *x = length(si));
         plain

@@ -27,7 +27,6 @@ pub fn drop<const D: usize>(operators: Operators) -> HeliumParameters<D> {
         surface: None,
         walls: core::iter::empty().collect(),
         suction: false,
-        lattice_sum: 0.0,
         heater: None,
         superleak: None,
         speed_bin: 0.1,

@@ -14,6 +14,7 @@ use super::geometry::{AxisBox, Vector3, around_both, grown, overlap};
 use super::lattice::Lattice;
 use super::region::Region;
 use super::shape::Shape;
+use super::superfluid::WallPressure;
 use super::types::Scene;
 use super::viscous::WallVelocity;
 use super::wcsph::{DensityCorrection, WallModel};
@@ -21,6 +22,7 @@ use super::words::{Dimension, LatticeKind, RegionKind};
 use crate::isc;
 use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::schemes::solid::Motion;
+use rayon::prelude::*;
 
 /// The particles at time zero; z is 0 in two dimensions.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,6 +41,9 @@ pub struct InitialState {
     /// What else the model is given of the particles: of a viscous fluid the ways from wall
     /// particles to the surface of the flow, of a superfluid its counterflow and entropy.
     pub given: Vec<GivenField>,
+    /// What else the model is given of the walls: of a vessel of helium, what their density sums would
+    /// be in full surroundings.
+    pub wall_given: Vec<GivenField>,
 }
 
 /// First values of a field, in its SI unit or as a pure number.
@@ -46,7 +51,8 @@ pub struct InitialState {
 pub struct GivenField {
     /// Its name in the model's declaration.
     pub name: &'static str,
-    /// A value for every particle, in the order of ids; of a scalar the first component.
+    /// A value for every particle, in the order of ids, or for every wall; of a scalar the first
+    /// component.
     pub values: Vec<Vector3>,
 }
 
@@ -193,6 +199,14 @@ impl Scene {
         if let Some(superfluid) = self.superfluid {
             let entropy = superfluid.helium().entropy;
             self.set_counterflows(&mut state, &placed, entropy);
+            // Walls that pull are wet from the start.
+            if superfluid.walls == WallPressure::Push && !state.wall.is_empty() {
+                let values = self.full_surroundings(&state, first);
+                state.wall_given.push(GivenField {
+                    name: "density_constant",
+                    values,
+                });
+            }
         }
         Ok(state)
     }
@@ -357,34 +371,37 @@ impl Scene {
         }
     }
 
-    /// Σ V0 W over all nodes of the lattice of the first fluid region but one; 0 on a spiral, whose
-    /// nodes differ.
-    #[must_use]
-    pub fn lattice_sum(&self) -> f64 {
-        let Some(lattice) = self.first_lattice() else {
-            return 0.0;
-        };
-        if lattice.kind == LatticeKind::Vogel {
-            return 0.0;
-        }
+    /// For every wall particle, Σ V0 W over all other nodes of the lattice that lie among the
+    /// particles of the scene, filled or not; what lies outside of a box around them all is outside of
+    /// the vessel.
+    fn full_surroundings(&self, state: &InitialState, lattice: Lattice) -> Vec<Vector3> {
         let axes = self.dimension.axes();
         let reach = self.support_radius();
         let kernel = WendlandC2::new(axes, reach, 1.0);
-        let middle = lattice.node([0; 3]);
-        let ball = Shape::Ball {
-            centre: middle,
-            radius: reach,
-        };
         let volume = self.particle_mass() / self.reference_density();
-        let mut sum = 0.0;
-        visit(&lattice, &ball, |point| {
-            let squares = (0..axes).map(|k| (point[k] - middle[k]) * (point[k] - middle[k]));
-            let r = squares.sum::<f64>().sqrt();
-            if r > 0.5 * lattice.spacing && r < reach {
-                sum += volume * kernel.value(r);
-            }
-        });
-        sum
+        let all = state.fluid.iter().chain(&state.wall).map(|x| (*x, *x));
+        let half = 0.5 * lattice.spacing;
+        let Some(inside) = all.reduce(around_both) else {
+            return Vec::new();
+        };
+        let inside = grown(inside, [half; 3]);
+        let sum_at = |middle: &Vector3| {
+            let ball = Shape::Ball {
+                centre: *middle,
+                radius: reach,
+            };
+            let mut sum = 0.0;
+            visit(&lattice, &ball, |x| {
+                let squares = (0..axes).map(|k| (x[k] - middle[k]) * (x[k] - middle[k]));
+                let r = squares.sum::<f64>().sqrt();
+                let counts = (0..axes).all(|k| inside.0[k] <= x[k] && x[k] <= inside.1[k]);
+                if counts && r > TOO_NEAR * lattice.spacing && r < reach {
+                    sum += volume * kernel.value(r);
+                }
+            });
+            [sum, 0.0, 0.0]
+        };
+        state.wall.par_iter().map(sum_at).collect()
     }
 
     /// The lattice of the first fluid region, which walls continue.

@@ -25,8 +25,6 @@ pub fn helium_parameters<const D: usize>(
     let lids: Vec<Vector3> = scene.regions.iter().map(lid_velocity).collect();
     let whole = fastest(initial).max(largest(&lids));
     let flow = flow_speeds(&helium, excess, counterflow, whole);
-    // Walls that pull are wet from the start: nothing is to be filled in their surroundings.
-    let suction = superfluid.is_some_and(|it| it.walls == WallPressure::PushAndPull);
     HeliumParameters {
         support_radius: scene.support_radius(),
         particle_spacing: scene.particle_spacing,
@@ -47,12 +45,7 @@ pub fn helium_parameters<const D: usize>(
             .iter()
             .map(|wall| wall_part(scene, wall))
             .collect(),
-        suction,
-        lattice_sum: if initial.wall.is_empty() || suction {
-            0.0
-        } else {
-            scene.lattice_sum()
-        },
+        suction: superfluid.is_some_and(|it| it.walls == WallPressure::PushAndPull),
         heater: superfluid.and_then(|it| it.heater).map(|heater| Heater {
             place: first(heater.place),
             power: heater.power,

@@ -100,10 +100,6 @@ pub struct HeliumParameters<const D: usize> {
     pub walls: Vec<WallPart<D>, MAX_WALLS>,
     /// Whether walls pull where the liquid beside them is stretched.
     pub suction: bool,
-    /// Σ V0 W over all other nodes of the lattice of the walls, which a wall would have as its
-    /// density in full surroundings; 0 where their first surroundings are full, and where walls are
-    /// on no lattice.
-    pub lattice_sum: f64,
     /// A heater.
     pub heater: Option<Heater<D>>,
     /// A superleak.
@@ -230,11 +226,6 @@ impl<const D: usize> HeliumParameters<D> {
         )?;
         accept("viscosity", self.viscosity, self.viscosity >= 0.0)?;
         accept("diffusion", self.diffusion, self.diffusion >= 0.0)?;
-        accept(
-            "lattice_sum",
-            self.lattice_sum,
-            (0.0..8.0).contains(&self.lattice_sum),
-        )?;
         self.check_devices(accept)?;
         // An infinite bound is none.
         let separation = self.most_separation;

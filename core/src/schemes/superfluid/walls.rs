@@ -10,9 +10,10 @@
 //! a matter of the liquid alone, and no entropy passes, as at a free surface. Friction and
 //! conduction are those of [`friction`](super::friction).
 //!
-//! C_b makes ϱ_b 1 where all places around are filled, by walls or by the liquid, so that a wall
-//! that is dry at first does not repel what comes. Beside a dry place ϱ_b is less than 1, and a
-//! wall that must not pull has no pressure there.
+//! C_b makes ϱ_b 1 where the surroundings are full: where Σ V0 W over walls and the liquid is what is
+//! given as the first C_b, or more at the start. A wall that is dry at first then does not repel what
+//! comes: beside a dry place ϱ_b is less than 1, and a wall that must not pull has no pressure there.
+//! Where nothing is given, the first surroundings are full.
 //!
 //! Source: Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, section III C, where walls
 //! take part in "density and pressure computation"; the rest is ours.
@@ -141,7 +142,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for AddConstant {
     }
 }
 
-/// C_b ← what walls add to each other's densities.
+/// C_b ← what walls add to each other's densities, less that of full surroundings.
 #[derive(Clone, Copy, Debug)]
 pub struct KeepDensity;
 
@@ -152,7 +153,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for KeepDensity {
     const WRITE: &'static [usize] = &[DENSITY_CONSTANT];
     #[inline(always)]
     fn at(&self, _: u64, density: &A::Word, constant: &mut A::Word) -> Result<(), Fault> {
-        *constant = *density;
+        *constant = density.plus(constant.negated());
         Ok(())
     }
 }
@@ -165,7 +166,8 @@ values! {
     }
 }
 
-/// C_b ← 1 + p/(ρ0 u_1²) + C_b - the density of full surroundings, with the first pressure p.
+/// C_b ← 1 + p/(ρ0 u_1²) + C_b, with the first pressure p; less what the first surroundings are
+/// fuller than full.
 #[derive(Clone, Debug)]
 pub struct SetWallConstant<const D: usize> {
     pub(super) parameters: HeliumParameters<D>,
@@ -183,12 +185,10 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for SetWallConstant<D> {
     const WRITE: &'static [usize] = &[DENSITY_CONSTANT];
     fn at(&self, id: u64, read: &Placed<A::Word, D>, constant: &mut A::Word) -> Result<(), Fault> {
         let p = &self.parameters;
-        let of_walls = constant.quanta();
-        let now = of_walls + read.density.quanta();
-        let full = now.max(p.lattice_sum * ONE);
+        let beyond = (constant.quanta() + read.density.quanta()).max(0.0);
         let x = metres(&read.position, p.scale.length_quantum());
         let first = (1.0 + p.first_compression(&x)) * ONE;
-        let sum = A::Word::ZERO.add_rounded(first + (of_walls - full));
+        let sum = constant.add_rounded(first - beyond);
         *constant = sum.ok_or(Fault::new(FaultKind::TermRange, id))?;
         Ok(())
     }
