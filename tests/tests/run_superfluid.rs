@@ -269,7 +269,7 @@ fn friction_turns_second_sound_into_heat() {
 /// integrator too, whose first half kick takes what the last step has kept.
 #[test]
 fn saved_helium_goes_on() {
-    for n in [1, 3, 4] {
+    for n in [1, 3, 4, 5, 6] {
         let (scene, steps, digests) = golden(n);
         let mut first = player(scene.clone(), serial());
         first.advance(steps / 2).unwrap();

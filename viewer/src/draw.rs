@@ -465,10 +465,10 @@ impl Parts<'_> {
         let y = (bar.y + bar.height + size + size / 5) as i64;
         let x = rect.x as f64;
         let width = rect.width as f64;
-        text::write(raster, &faint, x, y, &plot::number(range[0]));
-        let middle = plot::number(0.5 * (range[0] + range[1]));
+        let [low, middle, high] = plot::numbers_of(range);
+        text::write(raster, &faint, x, y, &low);
         text::write_around(raster, &faint, x + 0.5 * width, y, &middle);
-        text::write_left_of(raster, &faint, x + width, y, &plot::number(range[1]));
+        text::write_left_of(raster, &faint, x + width, y, &high);
     }
 }
 

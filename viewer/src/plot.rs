@@ -332,6 +332,20 @@ fn joules(x: f64) -> String {
     text + gap + "J"
 }
 
+/// The ends of a range and its middle, as [`number`] has them, or with as many digits as tell them
+/// apart.
+#[must_use]
+pub fn numbers_of([low, high]: [f64; 2]) -> [String; 3] {
+    let values = [low, 0.5 * (low + high), high];
+    let short = values.map(number);
+    let half = 0.5 * (high - low).abs();
+    if half == 0.0 || (short[0] != short[1] && short[1] != short[2]) {
+        return short;
+    }
+    let digits = (1.0 - half.log10().floor()).clamp(0.0, 12.0) as usize;
+    values.map(|x| format!("{x:.digits$}").replace('-', "−"))
+}
+
 /// A number for people: three digits that count, and k, M or G for thousands, millions and
 /// thousands of millions.
 #[must_use]
@@ -360,5 +374,18 @@ pub fn number(x: f64) -> String {
         text
     } else {
         text + " " + unit
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::numbers_of;
+
+    #[test]
+    fn the_numbers_of_a_range_can_be_told_apart() {
+        assert_eq!(numbers_of([0.0, 0.4]), ["0", "0.2", "0.4"]);
+        assert_eq!(numbers_of([990.0, 1010.0]), ["990", "1000", "1010"]);
+        assert_eq!(numbers_of([1.648, 1.652]), ["1.6480", "1.6500", "1.6520"]);
+        assert_eq!(numbers_of([1.0, 1.0]), ["1", "1", "1"]);
     }
 }

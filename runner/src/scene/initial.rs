@@ -20,9 +20,7 @@ use super::viscous::WallVelocity;
 use super::wcsph::{DensityCorrection, WallModel};
 use super::words::{Dimension, LatticeKind, RegionKind};
 use crate::isc;
-use loschmidt_core::kernel::WendlandC2;
 use loschmidt_core::schemes::solid::Motion;
-use rayon::prelude::*;
 
 /// The particles at time zero; z is 0 in two dimensions.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -91,7 +89,7 @@ const MOST_NODES: f64 = (1_u64 << 33) as f64;
 /// Particles of two regions nearer than this, in spacings, are a mistake. Lattice nodes lie half a
 /// spacing inside the faces of their region, so that regions which only touch keep their particles
 /// farther apart; particles nearer than this mean regions that overlap.
-const TOO_NEAR: f64 = 0.45;
+pub(super) const TOO_NEAR: f64 = 0.45;
 
 /// Largest coordinate over spacing at which the nodes of a lattice are told apart to the
 /// tolerance of the faces.
@@ -211,34 +209,6 @@ impl Scene {
         Ok(state)
     }
 
-    /// Gives a superfluid its first counterflow and entropy, where it is; `entropy` is s0.
-    fn set_counterflows(
-        &self,
-        state: &mut InitialState,
-        placed: &[(usize, RegionKind, usize)],
-        entropy: f64,
-    ) {
-        let axes = self.dimension.axes();
-        let mut counterflow = vec![[0.0; 3]; state.fluid.len()];
-        let mut excess = counterflow.clone();
-        for &(number, kind, start) in placed {
-            if !self.is_movable(kind) {
-                continue;
-            }
-            let (region, places) = (&self.regions[number], &state.fluid[start..]);
-            // What belongs to later regions is overwritten by them.
-            let all = region.counterflow.map(|field| field.at_all(places, axes));
-            counterflow[start..].copy_from_slice(&all.unwrap_or(vec![[0.0; 3]; places.len()]));
-            for (s, x) in excess[start..].iter_mut().zip(places) {
-                let field = region.entropy;
-                s[0] = field.map_or(0.0, |field| field.excess_at(*x, axes, entropy));
-            }
-        }
-        for (name, values) in [("counterflow", counterflow), ("entropy", excess)] {
-            state.given.push(GivenField { name, values });
-        }
-    }
-
     /// Gives the fluid its first velocities, where it is.
     fn set_velocities(&self, state: &mut InitialState, placed: &[(usize, RegionKind, usize)]) {
         state.fluid_velocity = vec![[0.0; 3]; state.fluid.len()];
@@ -318,7 +288,7 @@ impl Scene {
 
     /// Whether the particles of such a region are among those that may move: the walls of a viscous
     /// fluid are, since they carry what its particles carry.
-    fn is_movable(&self, kind: RegionKind) -> bool {
+    pub(super) fn is_movable(&self, kind: RegionKind) -> bool {
         kind.is_of_the_model() || self.viscous.is_some()
     }
 
@@ -369,39 +339,6 @@ impl Scene {
             }
             RegionKind::Wall => None,
         }
-    }
-
-    /// For every wall particle, Σ V0 W over all other nodes of the lattice that lie among the
-    /// particles of the scene, filled or not; what lies outside of a box around them all is outside of
-    /// the vessel.
-    fn full_surroundings(&self, state: &InitialState, lattice: Lattice) -> Vec<Vector3> {
-        let axes = self.dimension.axes();
-        let reach = self.support_radius();
-        let kernel = WendlandC2::new(axes, reach, 1.0);
-        let volume = self.particle_mass() / self.reference_density();
-        let all = state.fluid.iter().chain(&state.wall).map(|x| (*x, *x));
-        let half = 0.5 * lattice.spacing;
-        let Some(inside) = all.reduce(around_both) else {
-            return Vec::new();
-        };
-        let inside = grown(inside, [half; 3]);
-        let sum_at = |middle: &Vector3| {
-            let ball = Shape::Ball {
-                centre: *middle,
-                radius: reach,
-            };
-            let mut sum = 0.0;
-            visit(&lattice, &ball, |x| {
-                let squares = (0..axes).map(|k| (x[k] - middle[k]) * (x[k] - middle[k]));
-                let r = squares.sum::<f64>().sqrt();
-                let counts = (0..axes).all(|k| inside.0[k] <= x[k] && x[k] <= inside.1[k]);
-                if counts && r > TOO_NEAR * lattice.spacing && r < reach {
-                    sum += volume * kernel.value(r);
-                }
-            });
-            [sum, 0.0, 0.0]
-        };
-        state.wall.par_iter().map(sum_at).collect()
     }
 
     /// The lattice of the first fluid region, which walls continue.

@@ -2,6 +2,8 @@
 
 use super::builder::{Builder, Here};
 use super::declare::Keys;
+use super::exclusive::{companions, only_one};
+use super::helium::{counterflow, entropy, refuse_beside_walls};
 use super::page::Page;
 use super::print::print_region;
 use super::region::{MaterialOfBody, Region, Velocity};
@@ -9,10 +11,9 @@ use super::region_keys::{
     BALL, BLOCK, COUNTERFLOW, ELLIPSOID, ENTROPY, LAYER, MATERIAL, POLYGON, REGION, REGIONS, SHAPE,
     SHELL, VELOCITY,
 };
-use super::schema::{Family, SceneKey, listed};
+use super::schema::{Family, SceneKey};
 use super::shape::Shape;
 use super::spec::{Entry, WrittenTable, WrittenValue};
-use super::superfluid::{Counterflow, FirstEntropy};
 use super::values::{as_table, elements, number, numbers};
 use super::wcsph;
 use super::words::{ChoiceWord, Dimension, LatticeKind, RegionKind};
@@ -115,20 +116,6 @@ fn refuse_shapeless_motion<'a>(
     }
 }
 
-/// Reports keys of a wall in a region that is none, and keys of a liquid in one that is.
-fn refuse_beside_walls<'a>(builder: &mut Builder<'a>, here: Here<'a>, kind: RegionKind) {
-    let wall = kind == RegionKind::Wall;
-    let of_walls = ["smooth", "conduction"].map(|name| (name, !wall));
-    let of_liquids = ["counterflow", "entropy"].map(|name| (name, wall));
-    for (name, refused) in of_walls.into_iter().chain(of_liquids) {
-        if let Some(entry) = here.table.get(name).filter(|_| refused) {
-            let region = kind.word();
-            let message = format!("a {region} region has no `{name}`");
-            builder.conflict(message, entry.key, "remove it".to_owned());
-        }
-    }
-}
-
 impl Keys for Vec<Region> {
     const KEYS: &'static [SceneKey] = &[REGIONS];
     const FAMILY: Option<Family> = None;
@@ -216,72 +203,6 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
     }
 }
 
-/// Reports companions of a key that is not given, and companions of the given one that are missing.
-fn companions<'a>(
-    builder: &mut Builder<'a>,
-    here: Here<'a>,
-    given: &str,
-    all: &[(&'static str, &[&str])],
-    needed: &[&'static str],
-) {
-    for (name, owners) in all {
-        if let Some(stray) = here.table.get(name)
-            && !owners.contains(&given)
-        {
-            let owners: Vec<String> = owners.iter().map(|owner| format!("`{owner}`")).collect();
-            let owners = listed(&owners, "or");
-            builder.conflict(
-                format!("`{name}` goes with {owners}, not with `{given}`"),
-                stray.key,
-                "remove it".to_owned(),
-            );
-        }
-    }
-    for name in needed {
-        if here.table.get(name).is_none() && !here.misspells(name) {
-            let message = format!("`{given}` needs `{name}`");
-            let meaning = here.rules.key(name).map_or("", |key| key.meaning);
-            builder.missing(here, message, vec![format!("`{name}`: {meaning}")]);
-        }
-    }
-}
-
-fn counterflow<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Counterflow> {
-    let fields = ["uniform", "random"];
-    let entry = only_one(builder, here, "the counterflow", |name| {
-        fields.contains(&name)
-    })?;
-    let random = entry.name == "random";
-    let all: [(&str, &[&str]); 2] = [("length", &["random"]), ("seed", &["random"])];
-    let needed: &[&str] = if random { &["length"] } else { &[] };
-    companions(builder, here, &entry.name, &all, needed);
-    Some(if random {
-        Counterflow::Random {
-            speed: builder.number(here, "random"),
-            length: builder.number(here, "length"),
-            seed: builder.number(here, "seed") as u64,
-        }
-    } else {
-        Counterflow::Uniform(numbers(&entry.node))
-    })
-}
-
-fn entropy<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<FirstEntropy> {
-    let fields = ["uniform", "wave"];
-    let entry = only_one(builder, here, "the entropy", |name| fields.contains(&name))?;
-    let wave = entry.name == "wave";
-    let needed: &[&str] = if wave { &["length"] } else { &[] };
-    companions(builder, here, &entry.name, &[("length", &["wave"])], needed);
-    Some(if wave {
-        FirstEntropy::Wave {
-            amplitude: builder.number(here, "wave"),
-            length: builder.number(here, "length"),
-        }
-    } else {
-        FirstEntropy::Uniform(builder.number(here, "uniform"))
-    })
-}
-
 fn material<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> MaterialOfBody {
     let energy = here.table.get("energy").is_some();
     MaterialOfBody {
@@ -316,50 +237,6 @@ fn lattice<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> LatticeKind {
         builder.conflict(message, entry.node.span, allowed.to_owned());
     }
     lattice
-}
-
-/// Of the keys that exclude each other, the one that is given.
-fn only_one<'a>(
-    builder: &mut Builder<'a>,
-    here: Here<'a>,
-    what: &str,
-    exclusive: impl Fn(&str) -> bool,
-) -> Option<&'a Entry> {
-    let mut given = here
-        .table
-        .entries
-        .iter()
-        .filter(|entry| exclusive(&entry.name));
-    let first = given.next();
-    if let (Some(first), Some(second)) = (first, given.next()) {
-        builder.conflict(
-            format!(
-                "{what} is given twice: as `{}` and as `{}`",
-                first.name, second.name
-            ),
-            second.key,
-            "keep one of them".to_owned(),
-        );
-    }
-    // An unknown key is reported already, and was most likely meant to be the missing one.
-    if first.is_none()
-        && here
-            .table
-            .entries
-            .iter()
-            .all(|e| here.rules.key(&e.name).is_some())
-    {
-        let names: Vec<String> = here
-            .rules
-            .keys
-            .iter()
-            .filter(|key| exclusive(key.name) && builder.may_have(key))
-            .map(|key| format!("`{}`", key.name))
-            .collect();
-        let help = format!("one of {}", listed(&names, "or"));
-        builder.missing(here, format!("{what} is empty"), vec![help]);
-    }
-    first
 }
 
 fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {

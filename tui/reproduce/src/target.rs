@@ -78,7 +78,7 @@ targets! {
     /// Figs. 1 to 4 of the paper on superfluid helium.
     NormalCavity = "normal-cavity",
         "helium: the lid-driven cavity (Figs. 1 to 4 of the third paper)",
-        targets::cavity::normal_cavity;
+        targets::normal_cavity::normal_cavity;
     /// Figs. 5 and 6 of the paper on superfluid helium.
     Sound = "second-sound", "helium: second sound (Figs. 5 and 6 of the third paper)",
         targets::sound::sound;

@@ -1,5 +1,4 @@
-//! The lid-driven cavity: Figs. 11 to 14 of the paper on solids and fluids, and Figs. 1 to 4 of that
-//! on superfluid helium.
+//! The lid-driven cavity: Figs. 11 to 14 of the paper on solids and fluids.
 
 use super::flow::{Budget, Flow, march};
 use super::slope;
@@ -16,7 +15,7 @@ const STEADY: f64 = 0.7;
 const POINTS: usize = 99;
 
 /// The head of the table of distances.
-const HEAD: [&str; 8] = [
+pub(super) const HEAD: [&str; 8] = [
     "Re",
     "dr",
     "walls",
@@ -32,9 +31,9 @@ const LINES: [MiddleLine; 2] = [MiddleLine::Vertical, MiddleLine::Horizontal];
 /// A fluid in the box: its scene, and the key of its viscosity where the lid, the box and the density
 /// are 1.
 #[derive(Clone, Copy)]
-struct Fluid {
-    scene: &'static str,
-    viscosity: &'static str,
+pub(super) struct Fluid {
+    pub(super) scene: &'static str,
+    pub(super) viscosity: &'static str,
 }
 
 /// By the equations of solids.
@@ -43,34 +42,28 @@ const VISCOUS: Fluid = Fluid {
     viscosity: "viscous.viscosity",
 };
 
-/// The normal component of helium alone.
-const NORMAL: Fluid = Fluid {
-    scene: "normal-cavity",
-    viscosity: "superfluid.viscosity",
-};
-
 /// A run: its fluid, Reynolds number, particles along a side, end in s, and what else is set.
 #[derive(Clone, Copy)]
-struct Setting<'a> {
-    fluid: Fluid,
-    reynolds: u32,
-    across: u32,
-    end: f64,
-    set: &'a [&'a str],
+pub(super) struct Setting<'a> {
+    pub(super) fluid: Fluid,
+    pub(super) reynolds: u32,
+    pub(super) across: u32,
+    pub(super) end: f64,
+    pub(super) set: &'a [&'a str],
 }
 
 /// What was seen of a run.
-struct Seen {
+pub(super) struct Seen {
     /// Mean velocities along both lines.
-    lines: [Curve; 2],
+    pub(super) lines: [Curve; 2],
     /// Largest and root mean square distance from the reference, on both lines.
-    largest: [f64; 2],
-    rms: [f64; 2],
-    budget: Budget,
+    pub(super) largest: [f64; 2],
+    pub(super) rms: [f64; 2],
+    pub(super) budget: Budget,
     /// The flow at the end.
-    speed: Field,
-    distortion: Field,
-    streamlines: Vec<Vec<[f64; 2]>>,
+    pub(super) speed: Field,
+    pub(super) distortion: Field,
+    pub(super) streamlines: Vec<Vec<[f64; 2]>>,
 }
 
 /// A place on a line, and the velocity that counts there.
@@ -79,48 +72,6 @@ fn on_line(flow: &Flow, line: MiddleLine, place: f64) -> f64 {
         MiddleLine::Vertical => flow.velocity_at([0.5, place])[0],
         MiddleLine::Horizontal => flow.velocity_at([place, 0.5])[1],
     }
-}
-
-/// Where streamlines begin: from the middle of the vortex outwards, and in the lower corners.
-const SEEDS: [[f64; 2]; 13] = [
-    [0.58, 0.68],
-    [0.58, 0.62],
-    [0.58, 0.55],
-    [0.58, 0.47],
-    [0.58, 0.38],
-    [0.58, 0.29],
-    [0.58, 0.2],
-    [0.58, 0.12],
-    [0.58, 0.06],
-    [0.95, 0.05],
-    [0.9, 0.07],
-    [0.03, 0.03],
-    [0.05, 0.06],
-];
-
-/// The streamline through a place, until it has come round or to the edge.
-fn streamline(flow: &Flow, seed: [f64; 2]) -> Vec<[f64; 2]> {
-    const STEP: f64 = 0.01;
-    let along = |[x, y]: [f64; 2]| {
-        let [u, v] = flow.velocity_at([x, y]);
-        let speed = u.hypot(v).max(1e-9);
-        [u / speed, v / speed]
-    };
-    let (mut line, mut x) = (vec![seed], seed);
-    for n in 0..400 {
-        let [u, v] = along(x);
-        let [u, v] = along([x[0] + 0.5 * STEP * u, x[1] + 0.5 * STEP * v]);
-        x = [x[0] + STEP * u, x[1] + STEP * v];
-        if !x.iter().all(|x| (0.005..0.995).contains(x)) {
-            break;
-        }
-        line.push(x);
-        let home = (x[0] - seed[0]).hypot(x[1] - seed[1]);
-        if n > 5 && home < 0.75 * STEP {
-            break;
-        }
-    }
-    line
 }
 
 fn field(flow: &Flow, setting: Setting<'_>, label: &str, value: impl Fn(usize) -> f64) -> Field {
@@ -137,7 +88,7 @@ fn field(flow: &Flow, setting: Setting<'_>, label: &str, value: impl Fn(usize) -
     }
 }
 
-fn run(lab: &mut Lab<'_>, setting: Setting<'_>) -> Result<Seen, LabError> {
+pub(super) fn run(lab: &mut Lab<'_>, setting: Setting<'_>) -> Result<Seen, LabError> {
     let mut set = vec![
         format!("particle_spacing={}", 1.0 / f64::from(setting.across)),
         format!(
@@ -177,7 +128,7 @@ fn run(lab: &mut Lab<'_>, setting: Setting<'_>) -> Result<Seen, LabError> {
             }
         }
         if time > setting.end * (1.0 - 0.5 / LOOKS as f64) {
-            streamlines = SEEDS.map(|seed| streamline(flow, seed)).to_vec();
+            streamlines = flow.streamlines();
             let speed = |n: usize| flow.velocity[n][0].hypot(flow.velocity[n][1]);
             let xy = |n: usize| flow.distortion.get(n).map_or(0.0, |a| a[1]);
             fields = Some([
@@ -295,112 +246,6 @@ pub fn cavity(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     Ok(section)
 }
 
-/// Figs. 1 to 4 of the paper on superfluid helium: the same box, with the normal component alone.
-pub fn normal_cavity(lab: &mut Lab<'_>) -> Result<Section, LabError> {
-    let mut section = Section::new(
-        "Superfluid helium, Figs. 1 to 4: the lid-driven cavity",
-        "Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, section III A: the two-fluid \
-         model without a superfluid component, in a box of 1 m under a lid of 1 m/s, against the \
-         velocities along the middle lines of Ghia, Ghia & Shin, J. Comput. Phys. 48 (1982) 387. h = \
-         3 dr, dummy walls six deep. Velocities are means over the last 0.3 of the run (10 s at Re \
-         100, 20 s at 400; the paper: 40 s).",
-    );
-    let sizes: [&[u32]; 2] = lab.size([&[20, 40], &[]], [&[42, 84, 168], &[42, 84, 168]]);
-    let slopes = ["0.998", "1.189"];
-    let (mut rows, mut speeds, mut curves) = (Vec::new(), Vec::new(), Vec::new());
-    for (n, (reynolds, end)) in [(100, 10.0), (400, 20.0)].into_iter().enumerate() {
-        let (mut errors, mut runs) = (Vec::new(), Vec::new());
-        for &across in sizes[n] {
-            let setting = Setting {
-                fluid: NORMAL,
-                reynolds,
-                across,
-                end,
-                set: &[],
-            };
-            let seen = run(lab, setting)?;
-            rows.push(row(setting, "dummies", &seen));
-            let largest = seen.largest[0].max(seen.largest[1]);
-            errors.push([1.0 / f64::from(across), largest]);
-            runs.push((across, seen));
-        }
-        if errors.is_empty() {
-            continue;
-        }
-        let paper = format!("{} for N from 24 to 336", slopes[n]);
-        convergence(&mut section, reynolds, &errors, &paper);
-        let figure = ["Fig. 1", "Fig. 2"][n];
-        lines(
-            lab,
-            &mut section,
-            ["normal-cavity", figure],
-            reynolds,
-            &runs,
-        )?;
-        let label = format!("Re {reynolds}");
-        let points = errors.iter().map(|[dr, e]| [1.0 / dr, *e]);
-        curves.push(svg::styled(&label, n, Style::LineDots, points));
-        if let Some((_, finest)) = runs.pop() {
-            balance(&mut section, reynolds, &finest);
-            let title = format!("Fig. 3: streamlines, Re {reynolds}");
-            let svg = streamlines(title, &finest.streamlines);
-            lab.figure(
-                &mut section,
-                &format!("normal-cavity-{reynolds}-lines"),
-                &svg,
-                "",
-            )?;
-            speeds.push(finest.speed);
-        }
-    }
-    section.table("Distance from the reference, m/s", &HEAD, rows);
-    let chart = Chart {
-        title: "Fig. 4: largest distance from the reference".to_owned(),
-        x_label: "N".to_owned(),
-        y_label: "m/s".to_owned(),
-        x_log: true,
-        y_log: true,
-        series: curves,
-        ..Chart::default()
-    };
-    lab.figure(&mut section, "normal-cavity-convergence", &chart.svg(), "")?;
-    let svg = svg::fields(&speeds, 2, 300.0);
-    lab.figure(
-        &mut section,
-        "normal-cavity-speed",
-        &svg,
-        "Speed at the end.",
-    )?;
-    Ok(section)
-}
-
-fn balance(section: &mut Section, reynolds: u32, seen: &Seen) {
-    section.check(
-        &format!("Re {reynolds}: energies and heat less the work of the lid, over the work"),
-        format!("{:.1e}", seen.budget.error),
-        "",
-        "at most 5e-3",
-        seen.budget.error.abs() <= 5e-3,
-    );
-}
-
-/// Streamlines in the box.
-fn streamlines(title: String, lines: &[Vec<[f64; 2]>]) -> String {
-    let chart = Chart {
-        title,
-        x_label: "x / m".to_owned(),
-        y_label: "y / m".to_owned(),
-        x_range: Some([0.0, 1.0]),
-        y_range: Some([0.0, 1.0]),
-        series: lines
-            .iter()
-            .map(|line| svg::line("", 0, line.iter().copied()))
-            .collect(),
-        ..Chart::default()
-    };
-    chart.svg()
-}
-
 /// Walls and relaxation as the paper has them.
 fn variants(lab: &mut Lab<'_>, rows: &mut Vec<Vec<String>>) -> Result<(), LabError> {
     let variants: [(&str, &[&str]); 2] = [
@@ -425,7 +270,7 @@ fn variants(lab: &mut Lab<'_>, rows: &mut Vec<Vec<String>>) -> Result<(), LabErr
     Ok(())
 }
 
-fn row(setting: Setting<'_>, walls: &str, seen: &Seen) -> Vec<String> {
+pub(super) fn row(setting: Setting<'_>, walls: &str, seen: &Seen) -> Vec<String> {
     let mut row = vec![
         setting.reynolds.to_string(),
         format!("1/{}", setting.across),
@@ -458,7 +303,7 @@ fn at_100(section: &mut Section, seen: &Seen) {
 }
 
 /// Fig. 13.
-fn convergence(section: &mut Section, reynolds: u32, errors: &[[f64; 2]], paper: &str) {
+pub(super) fn convergence(section: &mut Section, reynolds: u32, errors: &[[f64; 2]], paper: &str) {
     let logs = errors.iter().map(|[dr, e]| [dr.ln(), e.ln()]);
     let Some(order) = slope(logs) else {
         return;
@@ -474,7 +319,7 @@ fn convergence(section: &mut Section, reynolds: u32, errors: &[[f64; 2]], paper:
 }
 
 /// Fig. 14.
-fn lines(
+pub(super) fn lines(
     lab: &Lab<'_>,
     section: &mut Section,
     [file, figure]: [&str; 2],

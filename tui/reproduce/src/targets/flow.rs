@@ -81,7 +81,54 @@ impl Flow {
         let determinant = sum(&matrix[0]);
         right.map(|right| sum(&right) / determinant)
     }
+
+    /// Streamlines of a flow in the unit square under a lid.
+    pub fn streamlines(&self) -> Vec<Vec<[f64; 2]>> {
+        SEEDS.map(|seed| self.streamline(seed)).to_vec()
+    }
+
+    /// The streamline through a place, until it has come round or to the edge.
+    fn streamline(&self, seed: [f64; 2]) -> Vec<[f64; 2]> {
+        const STEP: f64 = 0.01;
+        let along = |[x, y]: [f64; 2]| {
+            let [u, v] = self.velocity_at([x, y]);
+            let speed = u.hypot(v).max(1e-9);
+            [u / speed, v / speed]
+        };
+        let (mut line, mut x) = (vec![seed], seed);
+        for n in 0..400 {
+            let [u, v] = along(x);
+            let [u, v] = along([x[0] + 0.5 * STEP * u, x[1] + 0.5 * STEP * v]);
+            x = [x[0] + STEP * u, x[1] + STEP * v];
+            if !x.iter().all(|x| (0.005..0.995).contains(x)) {
+                break;
+            }
+            line.push(x);
+            let home = (x[0] - seed[0]).hypot(x[1] - seed[1]);
+            if n > 5 && home < 0.75 * STEP {
+                break;
+            }
+        }
+        line
+    }
 }
+
+/// Where streamlines begin: from the middle of the vortex outwards, and in the lower corners.
+const SEEDS: [[f64; 2]; 13] = [
+    [0.58, 0.68],
+    [0.58, 0.62],
+    [0.58, 0.55],
+    [0.58, 0.47],
+    [0.58, 0.38],
+    [0.58, 0.29],
+    [0.58, 0.2],
+    [0.58, 0.12],
+    [0.58, 0.06],
+    [0.95, 0.05],
+    [0.9, 0.07],
+    [0.03, 0.03],
+    [0.05, 0.06],
+];
 
 /// Places of walls that are no particles, and their velocities.
 fn still_walls(player: &Player, initial: &InitialState) -> Vec<[[f64; 2]; 2]> {

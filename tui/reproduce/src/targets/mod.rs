@@ -13,6 +13,7 @@ pub mod entropy;
 mod flow;
 pub mod fountain;
 pub mod gresho;
+pub mod normal_cavity;
 pub mod plate;
 pub mod sound;
 pub mod work;
