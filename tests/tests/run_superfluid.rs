@@ -69,8 +69,8 @@ const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 7] = [
         &["particle_spacing=0.0004"],
         60,
         [
-            "86e161a5b66be33b18b7b8da6ed153a4",
-            "f00d0f9e5e7be5d953f245dd0fdb5ad6",
+            "999c72dfb98ed978f258de86e2574a02",
+            "ddebc85be1744781616759dfb438cfac",
         ],
     ),
     (
@@ -79,7 +79,7 @@ const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 7] = [
         100,
         [
             "b58217df86be6480b650dd3affb661c5",
-            "59f068503d59c419815f86bfd610058e",
+            "80d1557617e1517eba43a8ff9c70aa2f",
         ],
     ),
 ];

@@ -358,6 +358,27 @@ impl<'a> Lab<'a> {
         Ok(())
     }
 
+    /// As [`Lab::advance`]; false where the numbers ended, and in `ended` what the fault says.
+    ///
+    /// # Errors
+    /// A signal came.
+    pub fn advance_to_fault(
+        &mut self,
+        name: &str,
+        player: &mut Player,
+        steps: u64,
+        ended: &mut Option<String>,
+    ) -> Result<bool, LabError> {
+        match self.advance(name, player, steps) {
+            Ok(()) => Ok(true),
+            Err(LabError::Fault(fault)) => {
+                *ended = Some(fault.to_string());
+                Ok(false)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
     /// A section that is there already.
     #[must_use]
     pub fn kept(&self, target: &str) -> Option<Section> {

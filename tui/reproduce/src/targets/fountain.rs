@@ -58,6 +58,8 @@ struct Seen {
     looks: Vec<Look>,
     /// Energy that came from nowhere, over what the heater gave.
     unbalanced: f64,
+    /// What ended it early.
+    ended: Option<String>,
     early: Vec<Field>,
     late: Vec<Field>,
     /// Speeds and pressures at the end.
@@ -143,20 +145,23 @@ fn run(lab: &mut Lab<'_>, setting: Setting) -> Result<Seen, LabError> {
     let mut seen = Seen {
         looks: Vec::new(),
         unbalanced: 0.0,
+        ended: None,
         early: Vec::new(),
         late: Vec::new(),
         last: Default::default(),
     };
     let (mut taken, mut pictured) = (0_u64, 0_u32);
     // The first millisecond is looked at more often, for the pictures.
-    for n in 1..=(setting.end / LOOK).round() as u64 {
+    'run: for n in 1..=(setting.end / LOOK).round() as u64 {
         let time = n as f64 * LOOK;
         for (k, early) in EARLY.iter().enumerate().skip(seen.early.len()) {
             if *early > time + 0.5 * step {
                 break;
             }
             let next = (early / step).round() as u64;
-            lab.advance(&name, &mut player, next - taken)?;
+            if !lab.advance_to_fault(&name, &mut player, next - taken, &mut seen.ended)? {
+                break 'run;
+            }
             taken = next;
             let picture = player.frame()?;
             let title = format!("{:.2} ms", 1e3 * EARLY[k]);
@@ -164,8 +169,11 @@ fn run(lab: &mut Lab<'_>, setting: Setting) -> Result<Seen, LabError> {
                 .push(field(&picture, "temperature", title, spacing, true));
         }
         let next = (time / step).round() as u64;
-        lab.advance(&name, &mut player, next - taken)?;
+        if !lab.advance_to_fault(&name, &mut player, next - taken, &mut seen.ended)? {
+            break;
+        }
         taken = next;
+        seen.unbalanced = player.measure()?.energies.total() - first;
         let now = player.frame()?;
         let look = look(&player, setting, [&frame, &now], seen.looks.last());
         seen.looks.push(look);
@@ -177,7 +185,8 @@ fn run(lab: &mut Lab<'_>, setting: Setting) -> Result<Seen, LabError> {
         }
         frame = now;
     }
-    let title = format!("{} W/m, {:.0} ms", setting.power, 1e3 * player.time());
+    let time = seen.looks.last().map_or(0.0, |look| look.time);
+    let title = format!("{} W/m, {:.0} ms", setting.power, 1e3 * time);
     seen.last = [
         Field {
             range: [0.0, 0.8],
@@ -190,8 +199,7 @@ fn run(lab: &mut Lab<'_>, setting: Setting) -> Result<Seen, LabError> {
             ..field(&frame, "pressure", title, spacing, false)
         },
     ];
-    let given = setting.power * player.time();
-    seen.unbalanced = (player.measure()?.energies.total() - first) / given;
+    seen.unbalanced /= setting.power * time;
     Ok(seen)
 }
 
@@ -249,7 +257,7 @@ pub fn fountain(lab: &mut Lab<'_>) -> Result<Section, LabError> {
     let setting = Setting {
         power: 80.0,
         across: lab.size(10.0, 20.0),
-        cfl: 0.6,
+        cfl: 0.4,
         end: lab.size(0.04, 0.3),
         viscosity: 1e-4,
     };
@@ -287,6 +295,7 @@ pub fn fountain(lab: &mut Lab<'_>) -> Result<Section, LabError> {
             "cell less bath, mK",
             "bath less T0, mK",
             "open balance, of the heat",
+            "ended",
         ],
         rows,
     );
@@ -317,6 +326,9 @@ fn row(setting: Setting, seen: &Seen) -> Vec<String> {
         format!("{:.2}", 1e3 * difference),
         format!("{:.2}", 1e3 * bath),
         format!("{:.1e}", seen.unbalanced),
+        seen.ended
+            .clone()
+            .unwrap_or_else(|| "as planned".to_owned()),
     ]
 }
 
