@@ -1,8 +1,8 @@
 //! Heater and superleak, where helium has friction.
 //!
-//! The heater gives a particle, in a step, the heat Ẇ dt w_a/(m Σ w) per mass, where w is the kernel
-//! at its distance from the heater: in all Ẇ dt, up to rounding. (Eq. (30) has the convolution alone,
-//! whose sum over particles is Ẇ only about.)
+//! The heater gives a particle, in a step, the heat Ẇ dt w_a/(m Σ w) per mass, where w is the
+//! kernel at its distance from the heater: in all Ẇ dt, up to rounding. (Eq. (30) has the
+//! convolution alone, whose sum over particles is Ẇ only about.)
 //!
 //! The superleak holds the normal component: after each half kick
 //!

@@ -5,11 +5,10 @@
 //! - thermal        Σ m T0 x²/(2C), x = s - s0
 //! - gravitational  -Σ m g·x, zero at the origin
 //!
-//! as eq. (15) has them, the compression that of walls too, but for T0 Σ m x: that is the entropy of the whole times a constant, which
-//! friction alone changes; there it is counted as heat, from the
-//! start on. What walls have taken, less what lids and the heater have given, is `drive`: with it the
-//! sum of all is constant. Where the state is held twice, all of these
-//! are of the mean.
+//! as eq. (15) has them, the compression that of walls too, but for T0 Σ m x: that is the entropy
+//! of the whole times a constant, which friction alone changes; there it is counted as heat, from the
+//! start on. What walls have taken, less what lids and the heater have given, is `drive`: with it
+//! the sum of all is constant. Where the state is held twice, all of these are of the mean.
 
 use super::fields::{
     COUNTERFLOW, COUNTERFLOW_COPY, DENSITY, ENTROPY, ENTROPY_COPY, ONE, ONE_LEDGER, SUMS, TAKEN,
@@ -34,7 +33,8 @@ pub(super) const NAMES: &[&str] = &[
     "gravitational",
 ];
 
-/// The same, the heat, T0 Σ m x, which friction makes, and what was exchanged with the surroundings.
+/// The same, the heat, T0 Σ m x, which friction makes, and what was exchanged with the
+/// surroundings.
 pub(super) const NAMES_WITH_HEAT: &[&str] = &[
     "kinetic",
     "counterflow",

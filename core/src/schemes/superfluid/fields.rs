@@ -41,8 +41,8 @@ pub const RUBBING: usize = 18;
 pub const HEAT: usize = 19;
 /// The share of a particle in what the heater gives. With friction.
 pub const HEATING: usize = 20;
-/// What a wall has taken from the liquid since the start, per mass of a particle: heat, less the work
-/// of a lid. Walls alone, with friction.
+/// What a wall has taken from the liquid since the start, per mass of a particle: heat, less the
+/// work of a lid. Walls alone, with friction.
 pub const TAKEN: usize = 21;
 /// dv and du of half a step, kept from the end of the last one. The paper's integrator alone.
 pub const RATES: usize = 14;
