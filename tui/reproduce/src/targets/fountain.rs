@@ -268,7 +268,7 @@ pub fn fountain(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         rows.push(row(Setting { power, ..setting }, &seen));
         runs.push((power, seen));
     }
-    let viscosities: &[f64] = lab.size(&[], &[1.5e-4, 4e-4, 1.5e-3]);
+    let viscosities: &[f64] = lab.size(&[], &[1e-4, 4e-4, 1.5e-3]);
     let mut relative = Vec::new();
     for &viscosity in viscosities {
         let changed = Setting {
