@@ -22,6 +22,7 @@ pub fn drop<const D: usize>(operators: Operators) -> HeliumParameters<D> {
         first_excess: 0.0,
         viscosity: 0.0,
         diffusion: 0.0,
+        mutual_friction: 0.0,
         most_separation: f64::INFINITY,
         gravity: [0.0; D],
         surface: None,

@@ -2,13 +2,17 @@
 
 use loschmidt_core::number::Quantity;
 use loschmidt_core::schemes::superfluid::{
-    Friction, Heater, HeliumParameters, Operators, PaperSuperfluid, Superfluid, Superleak, WallPart,
+    COUNTERFLOW, Friction, Heater, HeliumParameters, Operators, PaperSuperfluid, Superfluid,
+    Superleak, WallPart,
 };
-use loschmidt_core::{Diagnostics, FaultKind, Fixed, Model, Serial};
+use loschmidt_core::set::Set;
+use loschmidt_core::{Arithmetic, Diagnostics, FaultKind, Fixed, Model, Serial};
 use loschmidt_runner::scene::InitialState;
 use loschmidt_tests::conformance::{self, Plain};
 use loschmidt_tests::helium::{SPACING, drop, stirred, wall_in};
 use loschmidt_tests::permitted;
+
+type Word = <Fixed as Arithmetic>::Word;
 
 const OPERATORS: [Operators; 2] = [Operators::Paper, Operators::Renormalised];
 
@@ -32,6 +36,7 @@ fn furnished<const D: usize>(operators: Operators) -> HeliumParameters<D> {
     let mut parameters = filled::<D>(operators);
     parameters.viscosity = 1e-3;
     parameters.diffusion = 20.0;
+    parameters.mutual_friction = 600.0;
     let mut lid = [0.0; D];
     lid[0] = 0.5;
     let part = |first, rough, conduction, velocity| WallPart {
@@ -184,7 +189,7 @@ fn walls_and_the_liquid_keep_their_energy_together() {
 #[test]
 fn what_lid_heater_and_superleak_give_and_take_is_in_the_balance() {
     type Change = fn(&mut HeliumParameters<2>);
-    let all: [(&str, Change); 5] = [
+    let all: [(&str, Change); 6] = [
         ("all", |_| {}),
         ("lid", |p| {
             (p.heater, p.superleak) = (None, None);
@@ -199,7 +204,12 @@ fn what_lid_heater_and_superleak_give_and_take_is_in_the_balance() {
             p.walls = [WallPart::default()].into_iter().collect();
         }),
         ("superleak", |p| {
-            p.heater = None;
+            (p.heater, p.mutual_friction) = (None, 0.0);
+            p.walls = [WallPart::default()].into_iter().collect();
+        }),
+        ("mutual friction", |p| {
+            (p.heater, p.superleak) = (None, None);
+            (p.viscosity, p.diffusion) = (0.0, 0.0);
             p.walls = [WallPart::default()].into_iter().collect();
         }),
     ];
@@ -208,7 +218,7 @@ fn what_lid_heater_and_superleak_give_and_take_is_in_the_balance() {
             let mut parameters = furnished::<2>(operators);
             parameters.time_step *= 0.02;
             change(&mut parameters);
-            let drives = name != "superleak";
+            let drives = !["superleak", "mutual friction"].contains(&name);
             let model = Friction::superfluid(parameters).unwrap();
             let state = vessel([10, 8], 2.0, 9);
             let error = open_balance(model.clone(), &state).abs();
@@ -257,6 +267,20 @@ fn a_heater_without_liquid_ends_the_run() {
     assert_eq!((fault.kind, fault.step), (FaultKind::HeaterDry, 1));
 }
 
+/// A speed, given in its quanta, of the particle that is nearest to the origin, m/s.
+fn in_the_middle<M: Model<Fixed, 2>>(
+    helium: &mut Plain<M, 2>,
+    speed: impl Fn(&Set<'_, Fixed, 2>, usize) -> f64,
+) -> f64 {
+    let (model, system) = helium.parts();
+    let places = system.particles.position().iter();
+    let distances = places.map(|x| x.map(Quantity::quanta)).enumerate();
+    let distances = distances.map(|(place, [x, y])| (place, x.hypot(y)));
+    let nearest = distances.min_by(|(_, a), (_, b)| a.total_cmp(b));
+    let place = nearest.expect("particles").0;
+    speed(&system.particles, place) * model.scale().speed_quantum()
+}
+
 #[test]
 fn a_superleak_holds_the_normal_component_and_lets_the_other_pass() {
     // One plate for all of the drop, which moves as a whole and has a counterflow.
@@ -278,21 +302,9 @@ fn a_superleak_holds_the_normal_component_and_lets_the_other_pass() {
             given.values.fill([u, 0.0, 0.0]);
         }
     }
-    let quantum = parameters.scale.speed_quantum();
     let mut drop = plain(Friction::superfluid(parameters).unwrap(), &state);
     steps(&mut drop, 10);
-    let (_, system) = drop.parts();
-    let nearest = |x: &[_; 2]| -> f64 {
-        let [x, y]: [i64; 2] = *x;
-        (x as f64).hypot(y as f64)
-    };
-    let places = system.particles.position().iter().enumerate();
-    let middle = places.min_by(|(_, a), (_, b)| {
-        let words = |x: &[_; 2]| [x[0], x[1]].map(Quantity::whole_quanta);
-        nearest(&words(a)).total_cmp(&nearest(&words(b)))
-    });
-    let middle = middle.expect("particles").0;
-    let velocity = system.particles.velocity()[middle][0].quanta() * quantum;
+    let velocity = in_the_middle(&mut drop, |set, place| set.velocity()[place][0].quanta());
     // χ_n v_n decays by 1/e in the time of the plate, and v_s stays; sound has not come so far.
     let normal = helium.normal_fraction;
     let momentum = normal * v + (1.0 - normal) * u;
@@ -302,6 +314,35 @@ fn a_superleak_holds_the_normal_component_and_lets_the_other_pass() {
         (velocity - expected).abs() < 1e-3 * v,
         "{velocity} {expected}"
     );
+}
+
+#[test]
+fn mutual_friction_slows_the_counterflow_as_its_equation_says() {
+    let mut parameters = drop::<2>(Operators::Paper);
+    // So short that second sound between neighbours, of their disorder, does not count.
+    parameters.time_step *= 0.1;
+    let (helium, u, steps_taken) = (parameters.helium, 0.02, 10.0);
+    let between = u / helium.normal_fraction;
+    let rate = helium.reference_density * between * between;
+    // After ten steps A ρ |v_ns|² t is 1.
+    let time = steps_taken * parameters.time_step;
+    parameters.mutual_friction = 1.0 / (rate * time);
+    let mut state = stirred([13, 13], 0.0, 0.0, 13);
+    for given in &mut state.given {
+        if given.name == "counterflow" {
+            given.values.fill([u, 0.0, 0.0]);
+        }
+    }
+    let mut drop = plain(Friction::superfluid(parameters).unwrap(), &state);
+    steps(&mut drop, steps_taken as u64);
+    let left = in_the_middle(&mut drop, |set, place| {
+        set.view().vectors::<Word, 2>(COUNTERFLOW)[place][0].quanta()
+    });
+    let expected = u / 3_f64.sqrt();
+    println!("{left} {expected}");
+    assert!((left - expected).abs() < 1e-3 * u, "{left} {expected}");
+    let velocity = in_the_middle(&mut drop, |set, place| set.velocity()[place][0].quanta());
+    assert!(velocity.abs() < 1e-3 * u, "{velocity}");
 }
 
 #[test]

@@ -240,6 +240,7 @@ fn friction<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
     for (name, given) in [
         ("viscosity", superfluid.viscosity > 0.0),
         ("diffusion", superfluid.diffusion > 0.0),
+        ("mutual_friction", superfluid.mutual_friction > 0.0),
         ("heater", power > 0.0),
         ("superleak", superfluid.superleak.is_some()),
     ] {

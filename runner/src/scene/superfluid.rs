@@ -45,6 +45,10 @@ keys! {
         diffusion: f64 = Number(0.0), AtLeast(0.0),
             "beta of the entropy's diffusion, beta/rho times the Laplacian of T \
              (superfluid-dissipative)", "W/(m K²)";
+        mutual_friction: f64 = Number(0.0), AtLeast(0.0),
+            "A of Gorter and Mellink, whose force between the components is A rho_s rho_n \
+             |v_n - v_s|² (v_n - v_s) per volume; that of helium is about 600 at 1.65 K \
+             (superfluid-dissipative)", "m s/kg";
         separation: Option<f64> = Optional, Above(0.0),
             "how far the two copies of the counterflow may come apart before the run ends", "m/s";
         walls: WallPressure = Word(WallPressure::Push.word()), Any,

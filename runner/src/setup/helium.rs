@@ -34,6 +34,7 @@ pub fn helium_parameters<const D: usize>(
         first_excess: initial.given("entropy").map_or(0.0, mean),
         viscosity: superfluid.map_or(0.0, |it| it.viscosity),
         diffusion: superfluid.map_or(0.0, |it| it.diffusion),
+        mutual_friction: superfluid.map_or(0.0, |it| it.mutual_friction),
         most_separation: superfluid
             .and_then(|it| it.separation)
             .unwrap_or(f64::INFINITY),

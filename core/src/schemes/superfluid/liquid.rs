@@ -154,13 +154,9 @@ impl<const D: usize> Liquid<D> {
         if system.walls.is_empty() {
             return Ok(());
         }
-        exec.points(&NoDensity, &mut system.walls)?;
-        let of_walls = Sum::to_walls(Side::Walls, &[], DENSITY);
-        system.sum(exec, &self.density_pass(), of_walls)?;
+        self.sum_on_walls(system, exec, Side::Walls)?;
         exec.points(&KeepDensity, &mut system.walls)?;
-        exec.points(&NoDensity, &mut system.walls)?;
-        let of_liquid = Sum::to_walls(Side::Particles, &[], DENSITY);
-        system.sum(exec, &self.density_pass(), of_liquid)?;
+        self.sum_on_walls(system, exec, Side::Particles)?;
         let set = SetWallConstant {
             parameters: self.parameters.clone(),
         };
@@ -221,10 +217,20 @@ impl<const D: usize> Liquid<D> {
         if system.walls.is_empty() {
             return Ok(());
         }
-        exec.points(&NoDensity, &mut system.walls)?;
-        let of_liquid = Sum::to_walls(Side::Particles, &[], DENSITY);
-        system.sum(exec, &self.density_pass(), of_liquid)?;
+        self.sum_on_walls(system, exec, Side::Particles)?;
         exec.points(&AddConstant, &mut system.walls)
+    }
+
+    /// Σ V0 W of every wall over the liquid or over the walls.
+    fn sum_on_walls<A: Arithmetic, E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+        from: Side,
+    ) -> Result<(), Fault> {
+        exec.points(&NoDensity, &mut system.walls)?;
+        let sum = Sum::to_walls(from, &[], DENSITY);
+        system.sum(exec, &self.density_pass(), sum)
     }
 
     /// ϱ of every particle, which is all that a normal liquid needs.

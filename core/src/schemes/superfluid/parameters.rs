@@ -86,6 +86,9 @@ pub struct HeliumParameters<const D: usize> {
     pub viscosity: f64,
     /// β, the diffusion of heat, W/(m K²): entropy diffuses by β ΔT/ρ. With friction alone.
     pub diffusion: f64,
+    /// A of the mutual friction, m s/kg, whose force is A ρ_s ρ_n |v_n - v_s|² (v_n - v_s) per
+    /// volume. With friction alone.
+    pub mutual_friction: f64,
     /// The mean of (s - s0)/s0 at the start, from which heat is counted. With friction alone.
     pub first_excess: f64,
     /// The distance |w - W|, m/s, at which the two copies of the counterflow are too far apart to
@@ -226,6 +229,8 @@ impl<const D: usize> HeliumParameters<D> {
         )?;
         accept("viscosity", self.viscosity, self.viscosity >= 0.0)?;
         accept("diffusion", self.diffusion, self.diffusion >= 0.0)?;
+        let mutual = self.mutual_friction;
+        accept("mutual_friction", mutual, mutual >= 0.0)?;
         self.check_devices(accept)?;
         // An infinite bound is none.
         let separation = self.most_separation;

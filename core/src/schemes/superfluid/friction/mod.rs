@@ -7,9 +7,10 @@
 //! - a particle receives the heat of conduction, dt Σ (β/ρ0) g (T_i² - T_j²)/(ϱ_i ϱ_j), per mass
 //! - and of friction, half of what each pair loses, with the mean of v_n before and after:
 //!   -dt Σ (D + 2) (μ/ρ0) g (v_n,ij·x_ij) (v̄_n,ij·x_ij)/((r² + η²) ϱ_i ϱ_j)
-//! - s changes so that the energy (15) grows by that heat.
+//! - s changes so that the energy (15) grows by that heat;
+//! - before that u decays by mutual friction ([`mutual`]), whose heat is added.
 //!
-//! v_s feels no friction. The energy of a particle changes by v̄_n·Δv, exactly, so nothing is lost
+//! v_s feels no other friction. The energy of a particle changes by v̄_n·Δv, exactly, so nothing is lost
 //! but by rounding. Heat instead of entropy is what is conducted: β g (T_i² - T_j²) is what the
 //! paper's entropy flux 2 β g (T_i - T_j) and the production of its (23) come to together, and it is
 //! the negative for the partner. (The second factor of (23) is printed twice too large.) η is a
@@ -21,6 +22,7 @@
 //!
 //! Source: Kincl, Schmoranzer & Pavelka, Phys. Fluids 35 (2023) 047124, sections II B and II D.
 
+mod mutual;
 mod passes;
 mod updates;
 
@@ -39,6 +41,7 @@ use crate::kernel::Reach;
 use crate::model::{Dissipative, Model, Relax, SetupError};
 use crate::number::{Arithmetic, Quantity};
 use crate::system::{Sum, System};
+use mutual::Mutual;
 use updates::{FindNormal, Merge, NotRubbed, Push, Take, WallNormal, Warm};
 
 /// Superfluid helium with friction.
@@ -114,6 +117,17 @@ impl<A: Arithmetic, const D: usize> Friction<A, D> {
         (friction, heat)
     }
 
+    /// Mutual friction in a step.
+    fn mutual(&self) -> Mutual {
+        let p = self.liquid().parameters();
+        Mutual {
+            helium: p.helium,
+            strength: 2.0 * p.mutual_friction * p.helium.reference_density * p.time_step,
+            speed: p.scale.speed_quantum(),
+            heat: heat_quantum(p),
+        }
+    }
+
     /// Impulses of friction and conducted heat of all.
     fn rub<E: Executor>(&self, system: &mut System<'_, A, D>, exec: &E) -> Result<(), Fault> {
         let p = self.liquid().parameters();
@@ -186,6 +200,9 @@ impl<A: Arithmetic, const D: usize> Relax<A, D> for Friction<A, D> {
         let pulls = !p.is_normal();
         exec.points(&Push { helium, pulls }, &mut system.particles)?;
         self.heats(system, exec)?;
+        if pulls && p.mutual_friction > 0.0 {
+            exec.points(&self.mutual(), &mut system.particles)?;
+        }
         let warm = Warm {
             helium,
             speed,
