@@ -21,9 +21,9 @@ const ROUNDS: usize = 5;
 const WORK: f64 = 4e6;
 
 /// Elastic bodies of ten thousand particles and more: three sums of 4, 9 and 2 words in the plane,
-/// of 9, 17 and 3 in space, where water has two of 1 and 2 or 3. Helium has four of 4, 8, 11 and 11
-/// words.
-const OTHERS: [Size; 3] = [
+/// of 9, 17 and 3 in space, where water has two of 1 and 2 or 3. Helium has five of 8, 9, 4, 9 and 9
+/// words, with friction seven, and walls besides.
+const OTHERS: [Size; 4] = [
     Size {
         scene: "beryllium-plate",
         spacing: "2.5e-4",
@@ -38,6 +38,11 @@ const OTHERS: [Size; 3] = [
         scene: "second-sound-steep",
         spacing: "1e-4",
         name: "2D helium 10k",
+    },
+    Size {
+        scene: "fountain",
+        spacing: "2e-4",
+        name: "2D helium fountain",
     },
 ];
 
