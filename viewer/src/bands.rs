@@ -79,23 +79,23 @@ pub(crate) struct Overlap {
 }
 
 impl Canvas<'_> {
-    /// What of a square of `size` pixels lies on the canvas. Its first column and row are counted
-    /// from the top left of the canvas.
+    /// What of a square of `size` pixels lies on the canvas, if anything does. Its first column and
+    /// row are counted from the top left of the canvas.
     #[inline]
-    pub fn meet(&self, column: i32, row: i32, size: usize) -> Overlap {
+    pub fn meet(&self, column: i32, row: i32, size: usize) -> Option<Overlap> {
         let part = |first: i32, width: usize| {
-            let from = first.clamp(0, width as i32);
-            let to = (first + size as i32).clamp(from, width as i32);
-            (from as usize..to as usize, (from - first) as usize)
+            let from = first.max(0);
+            let to = first.saturating_add(size as i32).min(width as i32);
+            (from < to).then(|| (from as usize..to as usize, (from - first) as usize))
         };
-        let (rows, disc_row) = part(row, self.height);
-        let (columns, disc_column) = part(column, self.width);
-        Overlap {
+        let (rows, disc_row) = part(row, self.height)?;
+        let (columns, disc_column) = part(column, self.width)?;
+        Some(Overlap {
             rows,
             columns,
             disc_row,
             disc_column,
-        }
+        })
     }
 
     /// The pixels of a row.

@@ -19,8 +19,12 @@ pub(crate) struct Disc {
 }
 
 impl Disc {
-    /// Lays it out by bands.
-    pub fn lay(self, piece: &mut DiscBatch<Self>, stamp: &Stamp) {
+    /// Lays it out by bands, where it lies on a rectangle of so many columns.
+    pub fn lay(self, piece: &mut DiscBatch<Self>, width: usize, stamp: &Stamp) {
+        let column = self.x.div_euclid(PARTS) - stamp.half;
+        if column >= width as i32 || column + stamp.size() as i32 <= 0 {
+            return;
+        }
         let row = self.y.div_euclid(PARTS) - stamp.half;
         bands::of_rows(row, stamp.size() as i32, piece.bands.len(), |band| {
             piece.bands[band].push(self);
@@ -49,7 +53,9 @@ pub(crate) fn draw(canvas: &mut Canvas<'_>, pieces: &[DiscBatch<Disc>], stamps: 
         let stamp = &stamps[usize::from(disc.stamp)];
         let column = disc.x.div_euclid(PARTS) - stamp.half;
         let row = disc.y.div_euclid(PARTS) - stamp.half - bands::top(canvas.band);
-        let meeting = canvas.meet(column, row, stamp.size());
+        let Some(meeting) = canvas.meet(column, row, stamp.size()) else {
+            continue;
+        };
         let width = meeting.columns.len();
         let (table, light) = (stamp.coverage(disc.x, disc.y), stamp.shade(disc.x, disc.y));
         for (k, row) in meeting.rows.enumerate() {
@@ -90,4 +96,69 @@ pub(crate) fn draw(canvas: &mut Canvas<'_>, pieces: &[DiscBatch<Disc>], stamps: 
         }
     }
     SUMS.set((sums, clear));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::Raster;
+    use proptest::prelude::*;
+
+    /// Columns and rows around the picture, more than a disc of the tests reaches.
+    const AROUND: usize = 128;
+    const SIZE: [usize; 2] = [70, 40];
+
+    /// Draws balls in a picture of this size, moved by so many pixels to the right and down.
+    fn drawn(
+        balls: &[(i32, i32, u32)],
+        stamp: &Stamp,
+        [width, height]: [usize; 2],
+        by: usize,
+    ) -> Raster {
+        let mut piece = DiscBatch::default();
+        piece.clear(bands::count(height));
+        let by = by as i32 * PARTS;
+        for &(x, y, colour) in balls {
+            let disc = Disc {
+                x: x.saturating_add(by),
+                y: y.saturating_add(by),
+                colour: Rgb(colour),
+                stamp: 0,
+                weight: 255,
+            };
+            disc.lay(&mut piece, width, stamp);
+        }
+        let mut raster = Raster::new(width, height, Rgb(0x10_2030));
+        let rect = raster.rect();
+        bands::draw_bands(&mut raster.draw(), rect, |canvas| {
+            let stamps = std::slice::from_ref(stamp);
+            draw(canvas, std::slice::from_ref(&piece), stamps);
+        });
+        raster
+    }
+
+    proptest! {
+        #[test]
+        fn a_picture_is_the_part_of_a_larger_one(
+            radius in 0.5..20.0,
+            balls in prop::collection::vec((-300..900, -300..700, 0_u32..1 << 24), 0..100),
+        ) {
+            let stamp = Stamp::new(radius, true);
+            let small = drawn(&balls, &stamp, SIZE, 0);
+            let large = drawn(&balls, &stamp, SIZE.map(|s| s + 2 * AROUND), AROUND);
+            let width = SIZE[0] + 2 * AROUND;
+            for (row, pixels) in small.pixels().chunks(SIZE[0]).enumerate() {
+                let start = (row + AROUND) * width + AROUND;
+                prop_assert!(pixels == &large.pixels()[start..start + SIZE[0]], "row {}", row);
+            }
+        }
+
+        #[test]
+        fn a_ball_may_be_anywhere(
+            radius in 0.5..300.0,
+            balls in prop::collection::vec((any::<i32>(), any::<i32>(), 0_u32..1 << 24), 0..20),
+        ) {
+            drawn(&balls, &Stamp::new(radius, true), SIZE, 0);
+        }
+    }
 }

@@ -225,7 +225,7 @@ impl FieldPainting<'_> {
             .par_iter()
             .map(|&level| Stamp::new(radius_of(level), true))
             .collect();
-        let bands = bands::count(self.rect.height);
+        let (width, bands) = (self.rect.width, bands::count(self.rect.height));
         pieces.resize_with(discs.len().div_ceil(PIECE), DiscBatch::default);
         pieces
             .par_iter_mut()
@@ -233,7 +233,7 @@ impl FieldPainting<'_> {
             .for_each(|(piece, discs)| {
                 piece.clear(bands);
                 for disc in discs {
-                    disc.lay(piece, &stamps[usize::from(disc.stamp)]);
+                    disc.lay(piece, width, &stamps[usize::from(disc.stamp)]);
                 }
             });
         stamps

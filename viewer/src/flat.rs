@@ -274,11 +274,10 @@ impl ColourSums<'_, '_> {
     /// Adds a disc of any size, wherever it is.
     fn add(&mut self, disc: Dot) {
         let size = self.brush.size;
-        let meeting = self.canvas.meet(disc.column(), disc.row(), size);
-        let columns = meeting.columns;
-        if columns.is_empty() {
+        let Some(meeting) = self.canvas.meet(disc.column(), disc.row(), size) else {
             return;
-        }
+        };
+        let columns = meeting.columns;
         for tile in &mut self.tiles[columns.start / TILE..=(columns.end - 1) / TILE] {
             *tile += 1;
         }
@@ -301,7 +300,9 @@ fn draw_crowd(canvas: &mut Canvas<'_>, pieces: &[DiscBatch<Dot>], brush: &Brush,
     for disc in pieces.iter().flat_map(|piece| &piece.bands[canvas.band]) {
         let [r, g, b] = disc.colour().channels().map(u64::from);
         let weights = brush.weights(*disc);
-        let meeting = canvas.meet(disc.column(), disc.row(), brush.size);
+        let Some(meeting) = canvas.meet(disc.column(), disc.row(), brush.size) else {
+            continue;
+        };
         for (k, row) in meeting.rows.enumerate() {
             let from = (meeting.disc_row + k) * brush.size + meeting.disc_column;
             let line = &mut sums[row * width..][meeting.columns.clone()];

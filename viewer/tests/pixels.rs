@@ -4,7 +4,7 @@ use crate::home::after;
 use loschmidt_runner::Points;
 use loschmidt_runner::points::PointColumn;
 use loschmidt_viewer::{
-    Colormap, Colouring, History, Home, Look, Pane, Picture, Raster, Rect, Rgb, Theme, draw,
+    Colormap, Colouring, History, Home, Look, Pane, Picture, Raster, Rect, Rgb, Theme, View, draw,
     draw_on, field, picture, png,
 };
 use std::fs::File;
@@ -160,6 +160,31 @@ fn a_picture_depends_on_no_order_of_the_particles() {
             };
             let [one, two] = [&points, &other].map(|points| field(points, &home, &look, 200, 150));
             assert!(one == two, "{}", look.colouring.name());
+        }
+    }
+}
+
+#[test]
+fn a_scene_may_be_panned_turned_and_zoomed_to_anywhere() {
+    let space = after("dam-break-3d", &["particle_spacing=0.1"], 0);
+    for (points, home, _) in [dam(), space] {
+        for zoom in [0.05, 0.7, 1.0, 3.0, 40.0, 1e4] {
+            for (yaw, pitch) in [(0.0, 0.0), (0.6, 0.4), (2.5, -1.5)] {
+                for n in 0..25 {
+                    let pan = [n % 5, n / 5].map(|k| 0.35 * (f64::from(k) - 2.0));
+                    let view = View {
+                        zoom,
+                        pan,
+                        yaw,
+                        pitch,
+                    };
+                    let look = Look {
+                        view,
+                        ..Look::default()
+                    };
+                    field(&points, &home, &look, 90, 70);
+                }
+            }
         }
     }
 }
