@@ -22,7 +22,7 @@ const WORK: f64 = 4e6;
 
 /// Elastic bodies of ten thousand particles and more: three sums of 4, 9 and 2 words in the plane,
 /// of 9, 17 and 3 in space, where water has two of 1 and 2 or 3. Helium has five of 8, 9, 4, 9 and 9
-/// words, with friction seven, and walls besides.
+/// words, with friction eight, and as many again over walls.
 const OTHERS: [Size; 4] = [
     Size {
         scene: "beryllium-plate",

@@ -30,14 +30,22 @@ pub struct Rayon {
     pool: Arc<rayon::ThreadPool>,
 }
 
+/// Of so many threads those that can be of use: twice as many as there are processors, and eight
+/// in any case. More would only wait for one another.
+#[must_use]
+pub(crate) fn of_use(threads: NonZeroUsize) -> NonZeroUsize {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    NonZeroUsize::new((2 * processors).max(8)).map_or(threads, |most| threads.min(most))
+}
+
 impl Rayon {
-    /// A pool of `threads` threads.
+    /// A pool of `threads` threads, but at most of twice as many as there are processors, or eight.
     ///
     /// # Errors
     /// The threads could not be started.
     pub fn new(threads: NonZeroUsize) -> Result<Self, rayon::ThreadPoolBuildError> {
         let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.get())
+            .num_threads(of_use(threads).get())
             .thread_name(|i| format!("sph-{i}"))
             .build()?;
         Ok(Self {
@@ -207,4 +215,18 @@ fn gather_listed<A: Arithmetic, P: PairPass<D>, const D: usize>(
         return Err(FaultKind::Crowded);
     }
     result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_threads_are_started_than_can_be_of_use() {
+        for (asked, started) in [(1, 1..=1), (8, 8..=8), (100_000, 8..=4096)] {
+            let asked = NonZeroUsize::new(asked).expect("a number");
+            let pool = Rayon::new(asked).expect("threads");
+            assert!(started.contains(&pool.threads()), "{}", pool.threads());
+        }
+    }
 }

@@ -4,7 +4,7 @@ use crate::executor::ExecutorKind;
 use crate::fast::Backend;
 use crate::frame::Frame;
 use crate::points::Points;
-use crate::pool::Rayon;
+use crate::pool::{Rayon, of_use};
 use crate::saved::{ArithmeticKind, SavedState};
 use loschmidt_core::{Diagnostics, Digest, Fault, Reversibility};
 use std::num::NonZeroUsize;
@@ -17,7 +17,8 @@ pub struct Options {
     pub executor: ExecutorKind,
     /// Instructions of the fast executor.
     pub backend: Backend,
-    /// Threads of a parallel executor.
+    /// Threads of a parallel executor; it starts at most twice as many as there are processors, or
+    /// eight.
     pub threads: NonZeroUsize,
     /// Numbers of the state.
     pub arithmetic: ArithmeticKind,
@@ -43,7 +44,7 @@ impl Options {
     pub fn threads_at_work(&self) -> usize {
         match self.executor {
             ExecutorKind::Serial => 1,
-            ExecutorKind::Rayon | ExecutorKind::Fast => self.threads.get(),
+            ExecutorKind::Rayon | ExecutorKind::Fast => of_use(self.threads).get(),
         }
     }
 }

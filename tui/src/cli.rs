@@ -23,7 +23,8 @@ use std::path::PathBuf;
     name = "loschmidt",
     version,
     after_help = "Exit codes: 0 all is well; 1 the run did not return exactly; 2 usage or scene; \
-                  3 output; 4 the numbers ended; 130 interrupted, can be resumed."
+                  3 output; 4 the numbers ended; 70 a defect of the program; 130 interrupted, can be \
+                  resumed."
 )]
 pub struct ProgramArguments {
     /// What to do.

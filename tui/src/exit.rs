@@ -115,7 +115,9 @@ impl From<MovieError> for Failure {
             | MovieError::Io { .. }
             | MovieError::NoFfmpeg { .. }
             | MovieError::Ffmpeg { .. } => OUTPUT,
-            MovieError::Picture { .. }
+            MovieError::NotAFile(_)
+            | MovieError::FfmpegMissing(_)
+            | MovieError::Picture { .. }
             | MovieError::Unfinished(_)
             | MovieError::Watched(_)
             | MovieError::FewFrames { .. }

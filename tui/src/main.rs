@@ -9,6 +9,7 @@ mod dashboard;
 mod exit;
 mod progress;
 mod report;
+mod stop;
 
 use clap::Parser;
 use std::process::ExitCode;

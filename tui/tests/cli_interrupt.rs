@@ -30,6 +30,35 @@ fn interrupt(place: &Workplace, arguments: &[&str], name: &str, row: usize) -> E
     end(child)
 }
 
+#[test]
+fn a_signal_during_set_up_ends_the_program_and_leaves_nothing() {
+    let place = Workplace::new();
+    let pipe = std::process::Command::new("mkfifo")
+        .arg(place.join("pipe.toml"))
+        .status();
+    assert!(pipe.is_ok_and(|status| status.success()));
+    // A scene that nobody writes, and the positions of 31,000 particles, which take half a minute.
+    let calls: [&[&str]; 2] = [
+        &["run", "pipe.toml", "--out=broken"],
+        &[
+            "run",
+            "dam-break",
+            "--set=particle_spacing=0.008",
+            "--set=density_correction=isc",
+            "--out=broken",
+        ],
+    ];
+    for arguments in calls {
+        for name in ["INT", "TERM"] {
+            let child = place.start(arguments);
+            std::thread::sleep(std::time::Duration::from_secs(1));
+            signal(&child, name);
+            end(child).refused(130, &[]);
+            assert!(!place.join("broken").exists(), "{arguments:?}");
+        }
+    }
+}
+
 fn assert_says_how_to_resume(ended: Ended) {
     let ended = ended.refused(130, &["interrupted after step "]);
     assert!(ended.stderr.ends_with("loschmidt resume broken\n"));

@@ -29,6 +29,25 @@ fn hourglass() -> String {
 }
 
 #[test]
+fn what_cannot_be_written_is_told_before_the_first_picture() {
+    let place = Workplace::new();
+    fs::create_dir(place.join("folder.mp4")).expect("a directory");
+    for (more, code, words) in [
+        (["--gif=none/x.gif", "--out=frames"], 3, ["none/x.gif"; 2]),
+        (["--mp4=none/x.mp4", "--out=frames"], 3, ["none/x.mp4"; 2]),
+        (
+            ["--mp4=folder.mp4", "--force"],
+            2,
+            ["folder.mp4", "no file"],
+        ),
+        (["--gif=/dev/full", "--force"], 2, ["/dev/full", "no file"]),
+    ] {
+        place.call(&with(&more)).refused(code, &words);
+        assert_eq!(files_below(&place.join(".")).len(), 0, "{more:?}");
+    }
+}
+
+#[test]
 fn a_movie_is_pictures_and_a_gif_and_says_what_came_home() {
     let place = Workplace::new();
     let tint = hourglass();

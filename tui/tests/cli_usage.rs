@@ -118,7 +118,9 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
         assert_eq!(viscous, text.contains("relaxation time"), "{text}");
         let helium = text.contains("second sound");
         assert_eq!(helium, text.contains("superfluid helium at"), "{text}");
-        assert_eq!(name == "fountain", text.contains("superleak"), "{text}");
+        for device in ["superleak", "mutual friction"] {
+            assert_eq!(name == "fountain", text.contains(device), "{text}");
+        }
         assert_eq!(
             name == "normal-cavity",
             text.contains("a lid of 1.000 m/s"),
@@ -272,6 +274,19 @@ fn what_is_no_snapshot_has_no_digest() {
         .refused(2, &["a.snapshot"]);
     place.call(&["digest", "missing"]).refused(2, &["missing"]);
     place.call(&["digest", "."]).refused(2, &["."]);
+    // A device that has no end, and a pipe that nobody writes to.
+    let endless = "/dev/zero";
+    if std::path::Path::new(endless).exists() {
+        let refused = place.call(&["digest", endless]);
+        refused.refused(2, &[endless, "no regular file"]);
+    }
+    let pipe = std::process::Command::new("mkfifo")
+        .arg(place.join("pipe"))
+        .status();
+    if pipe.is_ok_and(|status| status.success()) {
+        let refused = place.call(&["digest", "pipe"]);
+        refused.refused(2, &["pipe", "no regular file"]);
+    }
 }
 
 #[test]

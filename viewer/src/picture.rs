@@ -7,13 +7,27 @@ use image::{DynamicImage, ImageDecoder, ImageReader};
 use std::io::{BufRead, Seek};
 use thiserror::Error;
 
+/// Most pixels that a picture may have.
+pub const MOST_PIXELS: u64 = 64_000_000;
+
 /// Why a picture could not be read.
 #[derive(Debug, Error)]
 pub enum ReadError {
     /// The file cannot be opened.
     #[error(transparent)]
     Io(#[from] std::io::Error),
-    /// Not a picture of a known format, a damaged one, or one too large for the memory.
+    /// Its header says that it is larger than [`MOST_PIXELS`].
+    #[error(
+        "it has {width} x {height} pixels, more than the {} million that are read",
+        MOST_PIXELS / 1_000_000
+    )]
+    TooLarge {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// Not a picture of a known format, or a damaged one.
     #[error(transparent)]
     Decoding(#[from] image::ImageError),
 }
@@ -27,6 +41,11 @@ pub fn read(from: impl BufRead + Seek, background: Rgb) -> Result<Raster, ReadEr
     let mut decoder = ImageReader::new(from)
         .with_guessed_format()?
         .into_decoder()?;
+    // Before memory for them is asked for.
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(ReadError::TooLarge { width, height });
+    }
     // A camera held upright leaves the turning to whoever reads.
     let orientation = decoder.orientation()?;
     let mut picture = DynamicImage::from_decoder(decoder)?;
@@ -151,6 +170,35 @@ mod tests {
         file.set_position(0);
         let raster = read(file, Rgb(0x12_34_56)).expect("a picture");
         assert_eq!(raster.pixels(), [0x12_34_56; 2]);
+    }
+
+    #[test]
+    fn what_a_header_claims_is_not_asked_of_the_memory() {
+        let pnm = b"P6 60000 60000 255\n".to_vec();
+        // A BMP of 24 bits without compression.
+        let mut bmp = b"BM".to_vec();
+        for word in [
+            54,
+            0,
+            54,
+            40,
+            60_000,
+            60_000,
+            24 << 16 | 1,
+            0,
+            0,
+            0,
+            0,
+            0,
+            0_u32,
+        ] {
+            bmp.extend(word.to_le_bytes());
+        }
+        for file in [pnm, bmp] {
+            let error = read(Cursor::new(file), Rgb(0)).expect_err("an error");
+            let text = "it has 60000 x 60000 pixels, more than the 64 million that are read";
+            assert_eq!(error.to_string(), text);
+        }
     }
 
     #[test]

@@ -182,7 +182,8 @@ fn a_scene_may_be_panned_turned_and_zoomed_to_anywhere() {
                         view,
                         ..Look::default()
                     };
-                    field(&points, &home, &look, 90, 70);
+                    let picture = field(&points, &home, &look, 90, 70);
+                    assert_eq!(picture.pixels().len(), 90 * 70);
                 }
             }
         }

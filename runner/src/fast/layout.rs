@@ -309,7 +309,7 @@ impl Layout {
         offsets.iter().filter_map(move |(dy, dz)| {
             let (y, z) = (y + dy, z + dz);
             let inside = y >= 0 && (y as usize) < ny && z >= 0 && (z as usize) < nz;
-            inside.then_some(z as usize * ny + y as usize)
+            inside.then(|| z as usize * ny + y as usize)
         })
     }
 

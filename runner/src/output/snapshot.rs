@@ -36,7 +36,8 @@ use crate::player::Arrow;
 use crate::saved::{ArithmeticKind, SavedField, SavedState};
 use loschmidt_core::digest::{Hashing, Header, Kind, ParticleSum, hash};
 use loschmidt_core::{Digest, Scale};
-use std::io::{self, Write};
+use std::fs;
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -81,6 +82,9 @@ pub enum SnapshotError {
 /// What is wrong with a snapshot's bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum Damage {
+    /// A pipe or a device.
+    #[error("it is no regular file")]
+    NotAFile,
     /// The first bytes are others.
     #[error("it does not begin with LSCHSNAP")]
     NotASnapshot,
@@ -260,14 +264,29 @@ impl Snapshot {
     /// # Errors
     /// [`SnapshotError`], naming the file.
     pub fn read(path: &Path) -> Result<Self, SnapshotError> {
-        let bytes = std::fs::read(path).map_err(|source| SnapshotError::Io {
+        let io = |source| SnapshotError::Io {
             path: path.to_owned(),
             source,
-        })?;
-        Self::from_bytes(&bytes).map_err(|why| SnapshotError::Damaged {
+        };
+        let damaged = |why| SnapshotError::Damaged {
             path: path.to_owned(),
             why,
-        })
+        };
+        let what = fs::metadata(path).map_err(io)?;
+        // A pipe would be waited for, and a device has no end.
+        if !what.is_file() && !what.is_dir() {
+            return Err(damaged(Damage::NotAFile));
+        }
+        let mut file = fs::File::open(path).map_err(io)?;
+        let mut bytes = Vec::new();
+        let magic = MAGIC.len() as u64;
+        let begun = Read::by_ref(&mut file).take(magic).read_to_end(&mut bytes);
+        begun.map_err(io)?;
+        if bytes != MAGIC {
+            return Err(damaged(Damage::NotASnapshot));
+        }
+        file.read_to_end(&mut bytes).map_err(io)?;
+        Self::from_bytes(&bytes).map_err(damaged)
     }
 
     /// The digest of the state, with the velocities along physical time.

@@ -73,8 +73,23 @@ impl Run {
         options: Options,
         out: Option<(&Path, bool)>,
     ) -> Result<Self, RunError> {
+        Self::start_when_ready(scene, options, out, || {})
+    }
+
+    /// The same, and calls `ready` once the scene is set up, which may take minutes, before anything is
+    /// written.
+    ///
+    /// # Errors
+    /// See [`Run::start`].
+    pub fn start_when_ready(
+        scene: Scene,
+        options: Options,
+        out: Option<(&Path, bool)>,
+        ready: impl FnOnce(),
+    ) -> Result<Self, RunError> {
         let started = Instant::now();
         let player = new_player(scene, options)?;
+        ready();
         let directory = out
             .map(|(path, force)| RunDirectory::create(path, force))
             .transpose()?;

@@ -74,6 +74,23 @@ pub enum SceneError {
         /// Fluid or solid.
         kind: &'static str,
     },
+    /// A region without a particle.
+    #[error(
+        "error: region {} of scene `{scene}` ({}) holds no particle at a particle spacing of \
+         {particle_spacing:?} m\nhelp: {help}",
+        .region.0,
+        .region.1
+    )]
+    EmptyRegion {
+        /// Name of the scene.
+        scene: String,
+        /// Number of the region in file order, from 0, and its description.
+        region: (usize, String),
+        /// Particle spacing, m.
+        particle_spacing: f64,
+        /// What may be done.
+        help: String,
+    },
     /// The initial state correction found no positions of equal density.
     #[error(
         "error: scene `{scene}`: {reason}\nhelp: set `density_correction` to \"constant\", or \

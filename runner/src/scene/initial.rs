@@ -10,8 +10,9 @@
 
 use super::error::SceneError;
 use super::filling::visit;
-use super::geometry::{AxisBox, Vector3, around_both, grown, overlap};
+use super::geometry::Vector3;
 use super::lattice::Lattice;
+use super::overlap::describe;
 use super::region::Region;
 use super::shape::Shape;
 use super::superfluid::WallPressure;
@@ -86,11 +87,6 @@ const MOST_SAMPLES: f64 = (1_u64 << 20) as f64;
 /// a little of its bounds is not searched for hours.
 const MOST_NODES: f64 = (1_u64 << 33) as f64;
 
-/// Particles of two regions nearer than this, in spacings, are a mistake. Lattice nodes lie half a
-/// spacing inside the faces of their region, so that regions which only touch keep their particles
-/// farther apart; particles nearer than this mean regions that overlap.
-pub(super) const TOO_NEAR: f64 = 0.45;
-
 /// Largest coordinate over spacing at which the nodes of a lattice are told apart to the
 /// tolerance of the faces.
 const FARTHEST: f64 = 1e6;
@@ -123,7 +119,7 @@ impl Scene {
     ///
     /// # Errors
     ///
-    /// [`SceneError::NoFluid`], [`SceneError::TooManyParticles`],
+    /// [`SceneError::NoFluid`], [`SceneError::EmptyRegion`], [`SceneError::TooManyParticles`],
     /// [`SceneError::TooFar`], [`SceneError::TooSparse`], and [`SceneError::Coincident`] when
     /// particles of two regions lie on one point or nearly so; [`SceneError::NotCorrected`] when
     /// the initial state correction does not converge.
@@ -175,10 +171,10 @@ impl Scene {
                 });
             }
             visit(&lattice, &region.shape, |point| points.push(point));
+            if points.len() == before {
+                return Err(self.empty_region(number));
+            }
             placed.push((number, region.kind, before));
-        }
-        if state.fluid.is_empty() {
-            return Err(no_fluid());
         }
         self.refuse_overlap(&state, &placed)?;
         if let Some(viscous) = self.viscous
@@ -349,6 +345,25 @@ impl Scene {
             .and_then(|region| self.own_lattice(region))
     }
 
+    /// The error of a region without a particle.
+    fn empty_region(&self, number: usize) -> SceneError {
+        let region = &self.regions[number];
+        let depth = region.shape.thinnest_layer();
+        SceneError::EmptyRegion {
+            scene: self.name.clone(),
+            region: (number, describe(region, self.dimension)),
+            particle_spacing: self.particle_spacing,
+            help: match depth {
+                Some(depth) if depth < 0.5 => format!(
+                    "a layer's depth is counted in particle spacings, of which its first row lies \
+                     at a half: {depth:?} are {:?} m",
+                    depth * self.particle_spacing
+                ),
+                _ => "make it thicker than a spacing, or `particle_spacing` smaller".to_owned(),
+            },
+        }
+    }
+
     fn refuse_above(&self, particles: u64, limit: u64) -> Result<(), SceneError> {
         if particles <= limit {
             return Ok(());
@@ -391,69 +406,6 @@ impl Scene {
         }
         Ok(())
     }
-
-    /// Compares the particles of every two regions where their bounds overlap.
-    ///
-    /// Two regions that do not interlock cost nothing beyond their bounds.
-    fn refuse_overlap(
-        &self,
-        state: &InitialState,
-        placed: &[(usize, RegionKind, usize)],
-    ) -> Result<(), SceneError> {
-        let mut groups: Vec<(usize, &[Vector3])> = Vec::new();
-        for (position, &(number, kind, start)) in placed.iter().enumerate() {
-            let all = if self.is_movable(kind) {
-                &state.fluid
-            } else {
-                &state.wall
-            };
-            let end = placed[position + 1..]
-                .iter()
-                .find(|next| self.is_movable(next.1) == self.is_movable(kind))
-                .map_or(all.len(), |next| next.2);
-            groups.push((number, &all[start..end]));
-        }
-        let axes = self.dimension.axes();
-        let (bodies, _) = self.bodies();
-        for (position, &(first, points)) in groups.iter().enumerate() {
-            for &(second, others) in &groups[position + 1..] {
-                // Bodies within each other's reach would begin with a pressure between them that
-                // their constants hide.
-                let reach = self.support_radius();
-                if self.solid.is_some()
-                    && bodies[first] != bodies[second]
-                    && let Some(point) = too_near(points, others, reach, axes)
-                {
-                    let region = |n| (n, describe(&self.regions[n], self.dimension));
-                    return Err(SceneError::BodiesTooNear {
-                        scene: self.name.clone(),
-                        regions: Box::new([region(first), region(second)]),
-                        point: point[..axes].to_vec(),
-                        reach,
-                    });
-                }
-                let near = TOO_NEAR * self.particle_spacing;
-                if let Some(point) = too_near(points, others, near, axes) {
-                    return Err(SceneError::Coincident {
-                        scene: self.name.clone(),
-                        first: (first, describe(&self.regions[first], self.dimension)),
-                        second: (second, describe(&self.regions[second], self.dimension)),
-                        point: point[..axes].to_vec(),
-                    });
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-/// A region in a few words, such as "fluid, a circle".
-fn describe(region: &Region, dimension: Dimension) -> String {
-    format!(
-        "{}, shape `{}`",
-        region.kind.word(),
-        region.shape.word(dimension)
-    )
 }
 
 /// Counts the nodes of a shape on a lattice coarse enough to be counted quickly.
@@ -477,46 +429,4 @@ fn estimate(lattice: Lattice, shape: &Shape) -> u64 {
     visit(&coarse, shape, |_| count += 1);
     let power = if shape.is_thin() { axes - 1 } else { axes };
     (0..power).fold(count, |count, _| count.saturating_mul(coarser))
-}
-
-/// The first point of `a` that is nearer than `near` to one of `b`.
-///
-/// The points of `b` are sorted into cubes of the distance that is allowed; what is too near to a
-/// point lies in its cube or in one of those around.
-fn too_near(a: &[Vector3], b: &[Vector3], near: f64, axes: usize) -> Option<Vector3> {
-    let common = overlap(grown(bounds(a)?, [near; 3]), grown(bounds(b)?, [near; 3]))?;
-    let inside = |p: &&Vector3| (0..axes).all(|k| common.0[k] <= p[k] && p[k] <= common.1[k]);
-    let cube = |p: &Vector3| -> [i64; 3] {
-        std::array::from_fn(|k| ((p[k] - common.0[k]) / near).floor() as i64)
-    };
-    let mut sorted: Vec<([i64; 3], &Vector3)> =
-        b.iter().filter(inside).map(|p| (cube(p), p)).collect();
-    sorted.sort_unstable_by_key(|(cube, _)| *cube);
-    let is_near = |p: &Vector3, q: &Vector3| {
-        let square: f64 = (0..axes).map(|k| (p[k] - q[k]) * (p[k] - q[k])).sum();
-        square < near * near
-    };
-    let mut candidates = a.iter().filter(inside);
-    candidates
-        .find(|p| {
-            let home = cube(p);
-            (0..3_i64.pow(axes as u32)).any(|n| {
-                let offset = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
-                let cell: [i64; 3] =
-                    std::array::from_fn(|k| home[k] + if k < axes { offset[k] } else { 0 });
-                let start = sorted.partition_point(|(cube, _)| *cube < cell);
-                sorted[start..]
-                    .iter()
-                    .take_while(|(cube, _)| *cube == cell)
-                    .any(|(_, q)| is_near(p, q))
-            })
-        })
-        .copied()
-}
-
-fn bounds(points: &[Vector3]) -> Option<AxisBox> {
-    points
-        .iter()
-        .map(|&point| (point, point))
-        .reduce(around_both)
 }

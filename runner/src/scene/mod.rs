@@ -50,6 +50,7 @@ mod initial;
 mod lattice;
 mod model;
 mod nearest;
+mod overlap;
 mod overrides;
 mod page;
 pub mod preset;

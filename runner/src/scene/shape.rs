@@ -77,6 +77,20 @@ impl Shape {
         }
     }
 
+    /// The depth, in spacings, of the layer with the least, where the shape has one.
+    pub(super) fn thinnest_layer(&self) -> Option<f64> {
+        match self {
+            Self::Union(shapes) | Self::Difference(shapes) | Self::Intersection(shapes) => {
+                let depths = shapes.iter().filter_map(Self::thinnest_layer);
+                depths.reduce(f64::min)
+            }
+            Self::Layer { around, depth } => {
+                Some(around.thinnest_layer().map_or(*depth, |d| d.min(*depth)))
+            }
+            _ => None,
+        }
+    }
+
     /// A box that holds every node of the shape; `None` when the shape is empty.
     pub(super) fn bounds(&self, spacing: f64) -> Option<AxisBox> {
         match self {

@@ -222,6 +222,12 @@ fn helium(scene: &Scene, superfluid: &Superfluid) -> String {
     }
     let operators = superfluid.operators.word();
     line("  operators", operators.to_owned());
+    if superfluid.mutual_friction > 0.0 {
+        line(
+            "mutual friction",
+            format!("{} m s/kg", superfluid.mutual_friction),
+        );
+    }
     if let Some(heater) = superfluid.heater {
         line("heater", format!("{} W", heater.power));
     }

@@ -1,20 +1,19 @@
 //! `movie`: a run out and back as pictures, GIF and MP4.
 
 use super::print;
-use super::run::stop_flag;
 use crate::cli::{MovieArguments, WorkArguments};
 use crate::exit::{Failure, USAGE, quote, tell};
 use crate::progress::Pictures;
+use crate::stop::Stop;
 use loschmidt_runner::scene::{self, Scene};
 use loschmidt_runner::{ArithmeticKind, Options, Player, RunError, setup};
 use loschmidt_viewer::movie::{
     Ending, Fate, Movie, MovieError, MovieStyle, Stored, free_directory,
 };
-use loschmidt_viewer::movie::{gif, mp4};
+use loschmidt_viewer::movie::{gif, mp4, target};
 use loschmidt_viewer::{Colouring, Look, Picture};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// Length of a movie, s, where nothing else says.
@@ -25,12 +24,12 @@ const MOST_PICTURES: usize = 100_000;
 
 /// Makes a movie.
 pub fn movie(arguments: &MovieArguments) -> Result<ExitCode, Failure> {
-    let stop = stop_flag()?;
+    let stop = Stop::new()?;
     for file in [&arguments.gif, &arguments.mp4].into_iter().flatten() {
-        gif::refuse_existing(file, arguments.force)?;
+        target::check(file, arguments.force)?;
     }
-    if arguments.mp4.is_some() && !mp4::is_available() && !arguments.quiet {
-        tell("note: ffmpeg is not on the path; the pictures are made, the MP4 cannot be");
+    if let Some(path) = arguments.mp4.as_ref().filter(|_| !mp4::is_available()) {
+        return Err(MovieError::FfmpegMissing(path.clone()).into());
     }
     let tint = arguments.tint.as_deref().map(Picture::open).transpose()?;
     let path = Path::new(&arguments.scene);
@@ -45,7 +44,7 @@ fn of_scene(
     arguments: &MovieArguments,
     tint: Option<Picture>,
     scene: Scene,
-    stop: &AtomicBool,
+    stop: &Stop,
 ) -> Result<ExitCode, Failure> {
     let style = style(arguments, tint, SECONDS, &scene)?;
     let options = options(arguments)?;
@@ -56,6 +55,7 @@ fn of_scene(
     let identity = format!("simulated {arithmetics:?}\n{}", scene.to_toml());
     setup::check_memory(&scene).map_err(RunError::from)?;
     let initial = scene.initial_state()?;
+    stop.wait_for_steps();
     let mut movie = create(arguments, style, &scene.name, &identity)?;
     announce(arguments, &movie);
     let mut ending = Ending::new();
@@ -70,7 +70,7 @@ fn of_scene(
             players.push(player.map_err(RunError::from)?);
         }
         let mut display = Pictures::new(arguments.quiet);
-        let result = movie.simulate(players, |progress| display.show(progress), stop);
+        let result = movie.simulate(players, |progress| display.show(progress), stop.asked());
         display.finish();
         ending = result.map_err(|error| how_to_go_on(arguments, &movie, error))?;
     }
@@ -81,7 +81,7 @@ fn of_run(
     arguments: &MovieArguments,
     tint: Option<Picture>,
     path: &Path,
-    stop: &AtomicBool,
+    stop: &Stop,
 ) -> Result<ExitCode, Failure> {
     let simulates = [
         (!arguments.set.is_empty(), "--set"),
@@ -101,11 +101,12 @@ fn of_run(
     let seconds = run.frames() as f64 / f64::from(arguments.fps);
     let style = style(arguments, tint, seconds, run.scene())?;
     run.suffices(&style)?;
+    stop.wait_for_steps();
     let mut movie = create(arguments, style, &run.scene().name, &run.identity())?;
     announce(arguments, &movie);
     if !movie.is_finished() {
         let mut display = Pictures::new(arguments.quiet);
-        let result = movie.render(&run, |progress| display.show(progress), stop);
+        let result = movie.render(&run, |progress| display.show(progress), stop.asked());
         display.finish();
         result.map_err(|error| how_to_go_on(arguments, &movie, error))?;
     }

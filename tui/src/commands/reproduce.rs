@@ -1,10 +1,10 @@
 //! `reproduce`: the paper's figures and tables, run again.
 
 use super::print;
-use super::run::stop_flag;
 use crate::cli::ReproduceArguments;
 use crate::exit::{Failure, INTERRUPTED, NOT_EXACT, OUTPUT, RANGE, quote, tell};
 use crate::progress::duration;
+use crate::stop::Stop;
 use loschmidt_reproduce::{Lab, LabError, News, Section, Target, report};
 use loschmidt_runner::Options;
 use std::io::IsTerminal;
@@ -16,7 +16,8 @@ const PAUSE: Duration = Duration::from_secs(10);
 
 /// Works out the targets and writes the report.
 pub fn reproduce(arguments: &ReproduceArguments) -> Result<ExitCode, Failure> {
-    let stop = stop_flag()?;
+    let stop = Stop::new()?;
+    stop.wait_for_steps();
     let options = Options {
         threads: arguments.threads.unwrap_or(Options::default().threads),
         ..Options::default()
@@ -28,7 +29,7 @@ pub fn reproduce(arguments: &ReproduceArguments) -> Result<ExitCode, Failure> {
         arguments.quick,
         arguments.force,
         options,
-        &stop,
+        stop.asked(),
         |news| {
             teller.hear(news);
         },

@@ -5,27 +5,19 @@ use crate::cli::{ResumeArguments, RunArguments, WorkArguments};
 use crate::exit::{Failure, NOT_EXACT};
 use crate::progress::{Display, announce};
 use crate::report;
+use crate::stop::Stop;
 use loschmidt_runner::output::{Manifest, OutputError, free_directory};
 use loschmidt_runner::run::Outcome;
 use loschmidt_runner::scene;
 use loschmidt_runner::{ExecutorKind, Options, Run, RunError};
 use serde::Serialize;
-use signal_hook::consts::{SIGINT, SIGTERM};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-
-/// The signals to stop; a terminal that is closed is one of them where there is such a signal.
-#[cfg(unix)]
-const STOP: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
-#[cfg(not(unix))]
-const STOP: [i32; 2] = [SIGINT, SIGTERM];
 
 /// Runs a scene.
 pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
-    let stop = stop_flag()?;
+    let stop = Stop::new()?;
     let source = scene::resolve(&arguments.scene.scene)?;
     let scene = scene::load(&source, &arguments.scene.overrides())?;
     let options = arguments.work.options(Options {
@@ -37,7 +29,8 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
             Some(out) => out.clone(),
             None => free_directory(&scene.name),
         };
-        match Run::start(scene.clone(), options, Some((&out, arguments.force))) {
+        let ready = || stop.wait_for_steps();
+        match Run::start_when_ready(scene.clone(), options, Some((&out, arguments.force)), ready) {
             // Another run took the name in this moment.
             Err(RunError::Output(OutputError::Exists(_))) if arguments.out.is_none() => {}
             result => break result?,
@@ -48,7 +41,7 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
 
 /// Goes on with a run.
 pub fn resume(arguments: &ResumeArguments) -> Result<ExitCode, Failure> {
-    let stop = stop_flag()?;
+    let stop = Stop::new()?;
     let work = &arguments.work;
     // What is asked for is checked before the run is touched; what is not is as before.
     let asked = work.options(Options::default())?;
@@ -60,6 +53,7 @@ pub fn resume(arguments: &ResumeArguments) -> Result<ExitCode, Failure> {
             ..asked
         }
     })?;
+    stop.wait_for_steps();
     execute(run, work, &stop)
 }
 
@@ -81,14 +75,14 @@ struct PrintedResult<'a> {
     outcome: &'a Outcome,
 }
 
-fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<ExitCode, Failure> {
+fn execute(mut run: Run, work: &WorkArguments, stop: &Stop) -> Result<ExitCode, Failure> {
     let (done, total) = (run.player().steps_taken(), run.plan().total());
     if !work.quiet {
         announce(&run);
     }
     let unit = run.player().scene().time_unit();
     let mut display = Display::new(work.quiet, unit, done, total);
-    let result = run.execute(|progress| display.show(progress), stop);
+    let result = run.execute(|progress| display.show(progress), stop.asked());
     display.finish(result.is_ok());
     let outcome = result?;
     let text = if work.json {
@@ -114,14 +108,4 @@ fn execute(mut run: Run, work: &WorkArguments, stop: &AtomicBool) -> Result<Exit
         Some(false) => ExitCode::from(NOT_EXACT),
         Some(true) | None => ExitCode::SUCCESS,
     })
-}
-
-/// A flag that the signals to stop set. Repeated ones change nothing: the run stops after the step
-/// it is at, and its snapshot and last words are not to be lost to an impatient second Ctrl-C.
-pub(super) fn stop_flag() -> Result<Arc<AtomicBool>, Failure> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in STOP {
-        signal_hook::flag::register(signal, Arc::clone(&stop))?;
-    }
-    Ok(stop)
 }

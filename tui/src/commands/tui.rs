@@ -1,9 +1,9 @@
 //! `tui`: the dashboard.
 
-use super::run::stop_flag;
 use crate::cli::{RunArguments, TuiArguments};
 use crate::dashboard;
 use crate::exit::{Failure, USAGE};
+use crate::stop::Stop;
 use loschmidt_runner::Options;
 use loschmidt_viewer::session::Request;
 use std::process::ExitCode;
@@ -36,5 +36,5 @@ pub fn tui(arguments: &TuiArguments) -> Result<ExitCode, Failure> {
             beside: false,
         },
     };
-    dashboard::run(request, options, &*stop_flag()?)
+    dashboard::run(request, options, &Stop::new()?)
 }

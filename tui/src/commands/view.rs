@@ -1,14 +1,20 @@
 //! `view`: the window.
 
-use super::run::stop_flag;
 use crate::exit::Failure;
+use crate::stop::Stop;
 use loschmidt_runner::Options;
 use loschmidt_viewer::window::{self, WindowArguments};
 use std::process::ExitCode;
 
 /// Opens the window.
 pub fn view(arguments: &WindowArguments) -> Result<ExitCode, Failure> {
-    let stop = stop_flag()?;
+    let stop = Stop::new()?;
+    stop.wait_for_steps();
     let options = Options::default();
-    Ok(window::program(arguments, options, &stop, "loschmidt view"))
+    Ok(window::program(
+        arguments,
+        options,
+        stop.asked(),
+        "loschmidt view",
+    ))
 }

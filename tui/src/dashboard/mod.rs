@@ -24,9 +24,12 @@ pub use state::Depth;
 pub use terminal::is_terminal;
 
 use crate::exit::{Failure, INTERRUPTED, OUTPUT, USAGE, quote, tell};
+use crate::stop::Stop;
 use loschmidt_runner::Options;
 use loschmidt_runner::deck::{FRAMES, Opening, OpeningError, Report};
-use loschmidt_viewer::session::{Effect, Host, LostState, Message, Request, new_picture};
+use loschmidt_viewer::session::{
+    DEFECT, Effect, Host, LostState, Message, Request, guarded, new_picture,
+};
 use loschmidt_viewer::{Look, Pane, draw, png};
 use message::DashboardMessage;
 use state::DashboardState;
@@ -45,9 +48,11 @@ const LOOK_UP: Duration = Duration::from_millis(50);
 const PICTURE: (usize, usize) = (1920, 1080);
 
 /// Opens the dashboard; returns when its user leaves.
-pub fn run(request: Request, options: Options, stop: &AtomicBool) -> Result<ExitCode, Failure> {
+pub fn run(request: Request, options: Options, stop: &Stop) -> Result<ExitCode, Failure> {
     // An error in the scene is told before the dashboard takes the terminal.
     let opening = request.opening(options)?;
+    stop.wait_for_steps();
+    let stop = stop.asked();
     let (sender, inbox) = channel();
     let mut terminal = Terminal::enter()?;
     let depth = Depth::of_environment(|name| std::env::var(name).ok());
@@ -59,7 +64,7 @@ pub fn run(request: Request, options: Options, stop: &AtomicBool) -> Result<Exit
     };
     dashboard.open(request, opening);
     terminal.listen(dashboard.sender.clone());
-    let ended = dashboard.play(&mut terminal, &inbox, stop);
+    let ended = guarded(|| dashboard.play(&mut terminal, &inbox, stop));
     let interrupted = stop.load(Ordering::Relaxed);
     let kept = dashboard.keep_at_the_end(&inbox);
     drop(terminal);
@@ -78,7 +83,8 @@ pub fn run(request: Request, options: Options, stop: &AtomicBool) -> Result<Exit
         }
     }
     match ended {
-        Err(error) if !interrupted => Err(error.into()),
+        Err(defect) => Err(Failure::new(DEFECT, format!("error: {defect}"))),
+        Ok(Err(error)) if !interrupted => Err(error.into()),
         _ if interrupted => Ok(ExitCode::from(INTERRUPTED)),
         _ => Ok(ExitCode::SUCCESS),
     }

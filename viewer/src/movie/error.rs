@@ -20,6 +20,12 @@ pub enum MovieError {
     /// A file is in the way of the directory or of a movie.
     #[error("{} exists already; choose another name, or replace it with --force", .0.display())]
     Exists(PathBuf),
+    /// A folder, a device or a pipe, where a file is to be.
+    #[error("{} is no file that could be written anew; choose another name", .0.display())]
+    NotAFile(PathBuf),
+    /// There is no ffmpeg for a movie asked for.
+    #[error("{} needs ffmpeg, which is not on the path\nhelp: without --mp4 the pictures are made; the same command with --mp4 makes the movie of them later", .0.display())]
+    FfmpegMissing(PathBuf),
     /// Another process is at work in the directory.
     #[error("{} is in use by another export at this moment", .0.display())]
     InUse(PathBuf),

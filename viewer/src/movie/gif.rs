@@ -9,6 +9,7 @@
 
 use super::directory::{Movie, read_picture, replace};
 use super::error::MovieError;
+use super::target;
 use crate::colour::Rgb;
 use crate::raster::Raster;
 use color_quant::NeuQuant;
@@ -36,7 +37,7 @@ const REST: u16 = 150;
 /// # Errors
 /// A picture cannot be read, or the file not be written; it exists and `force` is not given.
 pub fn write(movie: &Movie, to: &Path, force: bool) -> Result<(), MovieError> {
-    refuse_existing(to, force)?;
+    target::check(to, force)?;
     let pictures: Vec<_> = movie.pictures().collect();
     let step = pictures.len().div_ceil(SAMPLES).max(1);
     let samples: Vec<Raster> = pictures
@@ -71,17 +72,6 @@ pub fn write(movie: &Movie, to: &Path, force: bool) -> Result<(), MovieError> {
         }
         Ok(())
     })
-}
-
-/// Refuses to overwrite.
-///
-/// # Errors
-/// The file exists and `force` is not given.
-pub fn refuse_existing(path: &Path, force: bool) -> Result<(), MovieError> {
-    if path.is_dir() || (path.exists() && !force) {
-        return Err(MovieError::Exists(path.to_owned()));
-    }
-    Ok(())
 }
 
 /// How long a picture stays, in hundredths of a second.

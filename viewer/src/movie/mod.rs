@@ -15,6 +15,7 @@ pub mod mp4;
 mod schedule;
 mod simulate;
 mod stored;
+pub mod target;
 
 pub use directory::{Movie, MovieManifest, free_directory, picture_name};
 pub use error::MovieError;

@@ -2,7 +2,8 @@
 
 use super::directory::Movie;
 use super::error::MovieError;
-use super::gif::refuse_existing;
+use super::target;
+use std::ffi::OsString;
 use std::fs;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -34,13 +35,24 @@ pub fn is_available() -> bool {
         .is_ok_and(|status| status.success())
 }
 
+/// A path as ffmpeg takes it: one with a colon or a leading hyphen would be a protocol or an option.
+fn named(path: &Path) -> OsString {
+    let mut name = OsString::new();
+    let text = path.to_string_lossy();
+    if text.contains(':') || text.starts_with('-') {
+        name.push("file:");
+    }
+    name.push(path);
+    name
+}
+
 /// The command that makes the movie by hand. `quote` writes a path as a shell takes it.
 #[must_use]
 pub fn command(movie: &Movie, to: &Path, quote: impl Fn(&Path) -> String) -> String {
     format!(
         "ffmpeg -framerate {} -i {} {} {}",
         movie.style().fps,
-        quote(&movie.path().join("frame-%05d.png")),
+        quote(Path::new(&named(&movie.path().join("frame-%05d.png")))),
         CODING
             .map(|word| if word.contains('(') {
                 format!("'{word}'")
@@ -48,7 +60,7 @@ pub fn command(movie: &Movie, to: &Path, quote: impl Fn(&Path) -> String) -> Str
                 word.to_owned()
             })
             .join(" "),
-        quote(to)
+        quote(Path::new(&named(to)))
     )
 }
 
@@ -57,7 +69,7 @@ pub fn command(movie: &Movie, to: &Path, quote: impl Fn(&Path) -> String) -> Str
 /// # Errors
 /// There is no ffmpeg, or it failed; the file exists and `force` is not given.
 pub fn write(movie: &Movie, to: &Path, force: bool, by_hand: String) -> Result<(), MovieError> {
-    refuse_existing(to, force)?;
+    target::check(to, force)?;
     let mut name = to.file_name().unwrap_or_default().to_owned();
     name.push(".part");
     let beside = to.with_file_name(name);
@@ -67,7 +79,7 @@ pub fn write(movie: &Movie, to: &Path, force: bool, by_hand: String) -> Result<(
         .args(["-c:v", "png", "-i", "-"])
         .args(CODING)
         .args(["-f", "mp4"])
-        .arg(&beside)
+        .arg(named(&beside))
         .stdin(Stdio::piped())
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
@@ -114,4 +126,21 @@ pub fn write(movie: &Movie, to: &Path, force: bool, by_hand: String) -> Result<(
     }
     fed?;
     fs::rename(&beside, to).map_err(MovieError::io("write", to))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_path_is_an_option_or_a_protocol() {
+        for (path, name) in [
+            ("a.mp4", "a.mp4"),
+            ("-x.mp4", "file:-x.mp4"),
+            ("a:b.mp4", "file:a:b.mp4"),
+            ("/tmp/a.mp4", "/tmp/a.mp4"),
+        ] {
+            assert_eq!(named(Path::new(path)), name);
+        }
+    }
 }

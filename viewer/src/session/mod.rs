@@ -10,6 +10,7 @@
 //! the state and asks for effects: it knows neither clock nor file nor screen. [`Host`] carries the
 //! effects out that need the simulation.
 
+mod guard;
 mod host;
 mod kept;
 mod list;
@@ -24,6 +25,7 @@ mod update;
 mod view;
 mod words;
 
+pub use guard::{DEFECT, Defect, guarded};
 pub use host::{Host, LostState, new_picture};
 pub use kept::Kept;
 pub use list::{Choice, List, choices};

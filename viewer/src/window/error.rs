@@ -1,8 +1,9 @@
 //! Why there is no window.
 
 use crate::movie::MovieError;
-use crate::session::LostState;
+use crate::session::{DEFECT, Defect, LostState};
 use loschmidt_runner::deck::OpeningError;
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// The other ways to watch, told where there is no window.
@@ -29,6 +30,9 @@ pub enum WindowError {
     /// A run goes on where it was left, and the other arithmetic has not been played up to there.
     #[error("{0} is a run; to see both arithmetics, play its scene anew: {0}/scene.toml --beside")]
     Beside(String),
+    /// The program is wrong; the state is kept in this directory.
+    #[error("{0}")]
+    Defect(Defect, Option<PathBuf>),
     /// The state could not be kept.
     #[error("the state is lost: {0}")]
     Lost(#[from] LostState),
@@ -40,6 +44,7 @@ impl WindowError {
     pub fn code(&self) -> u8 {
         match self {
             Self::Lost(_) => 3,
+            Self::Defect(..) => DEFECT,
             _ => 2,
         }
     }

@@ -33,7 +33,7 @@ pub use update::update;
 use crate::colouring::Colouring;
 use crate::look::Look;
 use crate::picture::Picture;
-use crate::session::{MOST_THREADS, Request};
+use crate::session::{MOST_THREADS, Request, guarded};
 use app::{App, Wake};
 use clap::Args;
 use loschmidt_runner::Options;
@@ -151,11 +151,12 @@ pub fn run(
     let state = WindowState::new(arguments.size, 1.0, arguments.look(), picture);
     let mut app = App::new(state, options, handles, stop, arguments.log);
     app.open(request, opening);
-    let ended = event_loop.run_app(&mut app);
+    let ended = guarded(|| event_loop.run_app(&mut app));
     let kept = app.keep_at_the_end()?;
     match ended {
-        Ok(()) => Ok(kept),
-        Err(why) => Err(WindowError::of_display(&format!("{why:?}"), true)),
+        Ok(Ok(())) => Ok(kept),
+        Ok(Err(why)) => Err(WindowError::of_display(&format!("{why:?}"), true)),
+        Err(defect) => Err(WindowError::Defect(defect, kept)),
     }
 }
 
@@ -198,14 +199,17 @@ pub fn program(
     let say = |text: String| {
         let _ = writeln!(std::io::stderr(), "{text}");
     };
+    let go_on = |kept: Option<&PathBuf>| {
+        if let Some(path) = kept {
+            let path = path.display();
+            say(format!(
+                "go on from where you left it with\n    {name} {path}"
+            ));
+        }
+    };
     match run(arguments, options, Arc::clone(stop)) {
         Ok(kept) => {
-            if let Some(path) = kept {
-                let path = path.display();
-                say(format!(
-                    "go on from where you left it with\n    {name} {path}"
-                ));
-            }
+            go_on(kept.as_ref());
             if stop.load(Ordering::Relaxed) {
                 ExitCode::from(INTERRUPTED)
             } else {
@@ -221,6 +225,9 @@ pub fn program(
                 "error: "
             };
             say(format!("{head}{}", text.trim_end()));
+            if let WindowError::Defect(_, kept) = &why {
+                go_on(kept.as_ref());
+            }
             ExitCode::from(why.code())
         }
     }

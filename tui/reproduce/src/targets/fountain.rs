@@ -1,10 +1,21 @@
 //! The fountain of superfluid helium: Figs. 8 to 12 of the third paper.
 //!
-//! The speed of the jet is the area of particles that cross the plane of the rim within the nozzle,
-//! upwards less downwards, over its width and the time. It is compared with
+//! The speed of the jet is the area of particles that cross a plane in the nozzle, upwards less
+//! downwards, over its width and the time. It is compared with
 //!
 //! - v = W/(T s ρ d), at the temperature and entropy in the cell                      (31)
 //! - the same for W less what warms the cell, m T ds/dt: (31) supposes that nothing is stored.
+//!
+//! (31) supposes that both components leave together. The heat leaves with the normal one, whose
+//! speed is that of (31) in any case; how much of the other comes with it is decided where the jet
+//! ends. A jet is slower than second sound, so that it takes on the temperature of the bath that it
+//! falls into, as it takes on its pressure. With ∇T = ∇p = 0 between its end and the bath,
+//! Bernoulli's equation of the superfluid component, of which the bath's is at rest, is
+//!
+//! v_s²/2 - χ_n |v_n - v_s|²/2 = 0, whence v = χ_n v_n + χ_s v_s = √χ_n v_n.
+//!
+//! So a jet without friction between its components comes to 0.44 of (31) at 1.65 K as soon as it
+//! is joined to the bath. With mutual friction a difference of temperatures remains along it.
 
 use crate::lab::{Lab, LabError, scene};
 use crate::section::Section;
@@ -13,12 +24,15 @@ use loschmidt_runner::{Frame, Player};
 
 /// Width of the nozzle, m.
 const WIDTH: f64 = 0.002;
-/// Height of its rim, m.
-const RIM: f64 = 0.012;
+/// Height of the plane where the jet is counted, half a millimetre below the end of the nozzle, m.
+const PLANE: f64 = 0.0155;
 /// A look, s: the jet moves by less than the height of the nozzle.
 const LOOK: f64 = 5e-4;
 /// Looks over which the speed of a curve is averaged.
 const WINDOW: usize = 20;
+/// A at 1.65 K, m s/kg: A_λ (T/T_λ)³ with A_λ about 1450 m s/kg. (S. W. Van Sciver, Helium Cryogenics,
+/// 2nd ed., Springer 2012, chapter 7.)
+const MUTUAL_FRICTION: f64 = 632.0;
 /// When the first pictures of the cell are taken, s.
 const EARLY: [f64; 4] = [0.25e-3, 0.5e-3, 0.75e-3, 1e-3];
 
@@ -35,6 +49,8 @@ struct Setting {
     end: f64,
     /// Pa s.
     viscosity: f64,
+    /// A, m s/kg.
+    mutual_friction: f64,
 }
 
 /// What is seen at a time.
@@ -112,13 +128,13 @@ fn field(frame: &Frame, column: &str, title: String, spacing: f64, zoom: bool) -
     }
 }
 
-/// Upward crossings of the rim less downward ones.
+/// Upward crossings of the plane in the nozzle less downward ones.
 fn crossings(before: &[[f64; 3]], after: &[[f64; 3]]) -> f64 {
     let mut sum = 0.0;
     for (a, b) in before.iter().zip(after) {
         if (0.5 * (a[0] + b[0])).abs() <= 0.5 * WIDTH {
-            sum += f64::from(i8::from(a[1] < RIM && b[1] >= RIM));
-            sum -= f64::from(i8::from(a[1] >= RIM && b[1] < RIM));
+            sum += f64::from(i8::from(a[1] < PLANE && b[1] >= PLANE));
+            sum -= f64::from(i8::from(a[1] >= PLANE && b[1] < PLANE));
         }
     }
     sum
@@ -132,12 +148,13 @@ fn run(lab: &mut Lab<'_>, setting: Setting) -> Result<Seen, LabError> {
         format!("end={}", setting.end),
         format!("superfluid.heater.power={}", setting.power),
         format!("superfluid.viscosity={}", setting.viscosity),
+        format!("superfluid.mutual_friction={}", setting.mutual_friction),
     ];
     let options = lab.options();
     let mut player = lab.player(&scene("fountain", &set)?, options)?;
     let name = format!(
-        "fountain, {} W/m, d/{}, mu = {} Pa s",
-        setting.power, setting.across, setting.viscosity
+        "fountain, {} W/m, d/{}, mu = {} Pa s, A = {} m s/kg",
+        setting.power, setting.across, setting.viscosity, setting.mutual_friction
     );
     let step = player.scene().time_step();
     let first = player.measure()?.energies.total();
@@ -260,6 +277,7 @@ pub fn fountain(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         cfl: 0.4,
         end: lab.size(0.04, 0.3),
         viscosity: 1e-4,
+        mutual_friction: MUTUAL_FRICTION,
     };
     let mut rows = Vec::new();
     let mut runs = Vec::new();
@@ -282,12 +300,23 @@ pub fn fountain(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         let reynolds = 145.2 * WIDTH * ideal / viscosity;
         relative.push([reynolds, steady(&seen.looks, |look| look.speed) / ideal]);
     }
+    for &mutual_friction in lab.size(&[][..], &[0.0]) {
+        let changed = Setting {
+            mutual_friction,
+            across: 10.0,
+            ..setting
+        };
+        let seen = run(lab, changed)?;
+        without_mutual_friction(&mut section, &seen);
+        rows.push(row(changed, &seen));
+    }
     section.table(
         "The jet in the last third of each run",
         &[
             "W, W/m",
             "d/dr",
             "mu, Pa s",
+            "A, m s/kg",
             "jet, m/s",
             "(31), m/s",
             "jet/(31)",
@@ -319,6 +348,7 @@ fn row(setting: Setting, seen: &Seen) -> Vec<String> {
         setting.power.to_string(),
         setting.across.to_string(),
         setting.viscosity.to_string(),
+        setting.mutual_friction.to_string(),
         format!("{speed:.3}"),
         format!("{ideal:.3}"),
         format!("{:.3}", speed / ideal),
@@ -356,6 +386,16 @@ fn checks(lab: &Lab<'_>, section: &mut Section, seen: &Seen) {
         "",
         "at most 1e-3",
         seen.unbalanced.abs() <= 1e-3,
+    );
+}
+
+/// Where nothing but the bath's temperature holds the components together.
+fn without_mutual_friction(section: &mut Section, seen: &Seen) {
+    let share = |look: &Look| look.speed / look.ideal;
+    section.measure(
+        "80 W/m without mutual friction, joined to the bath: jet speed over (31)",
+        format!("{:.3}", steady(&seen.looks, share)),
+        "0.976; √χ_n = 0.44 of a jet that takes on the temperature of the bath",
     );
 }
 
