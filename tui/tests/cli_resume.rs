@@ -42,6 +42,41 @@ fn change(path: &Path, change: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
 }
 
 #[test]
+fn a_start_that_was_ended_early_is_told_and_may_be_begun_again() {
+    let place = Workplace::new();
+    // What there is, from one moment to the next, before the first manifest.
+    let made = [
+        ".lock",
+        "frames/",
+        "snapshots/",
+        "series.csv",
+        "scene.part",
+        "scene.toml",
+        "manifest.part",
+    ];
+    for most in 1..=made.len() {
+        let run = place.join("early");
+        fs::create_dir(&run).expect("a directory");
+        for name in &made[..most] {
+            match name.strip_suffix('/') {
+                Some(name) => fs::create_dir(run.join(name)).expect("a directory"),
+                None if *name == ".lock" => fs::write(run.join(name), "").expect("a file"),
+                None => fs::write(run.join(name), "half a").expect("a file"),
+            }
+        }
+        assert_refused(&place, "early", &["before its first state", "--force"]);
+        let mut again = vec!["run", "--quiet", "--force", "--out=early"];
+        again.extend(SET);
+        again.push("--set=turnaround=0.01");
+        place.call(&again).with_code(0);
+        fs::write(run.join("notes.txt"), "somebody's").expect("a file");
+        fs::remove_file(run.join("manifest.json")).expect("removed");
+        place.call(&again).refused(3, &["other origin"]);
+        fs::remove_dir_all(&run).expect("removed");
+    }
+}
+
+#[test]
 fn what_is_no_run_is_refused() {
     let place = Workplace::new();
     place

@@ -104,11 +104,27 @@ fn refuse_to_replace(path: &Path, force: bool) -> Result<(), OutputError> {
     }
     let ours = [MANIFEST, SCENE, SERIES, COLLECTION];
     let is_empty = !ours.iter().any(|name| path.join(name).exists());
-    if is_empty || RunDirectory::read_manifest(path).is_ok() {
+    if is_empty || is_broken_start(path) || RunDirectory::read_manifest(path).is_ok() {
         Ok(())
     } else {
         refuse("holds files of other origin")
     }
+}
+
+/// Whether a run was ended here before it had written its first manifest: nothing is there but what
+/// comes before.
+fn is_broken_start(path: &Path) -> bool {
+    let is_lock = |lock: fs::Metadata| lock.is_file() && lock.len() == 0;
+    let is_ours = |name: &str| {
+        let name = name.strip_suffix(".part").unwrap_or(name);
+        [LOCK, SCENE, SERIES, COLLECTION, FRAMES, SNAPSHOTS, "scene", "manifest"].contains(&name)
+    };
+    let only_ours = |entries: fs::ReadDir| {
+        entries
+            .into_iter()
+            .all(|entry| entry.is_ok_and(|entry| entry.file_name().to_str().is_some_and(is_ours)))
+    };
+    fs::metadata(path.join(LOCK)).is_ok_and(is_lock) && fs::read_dir(path).is_ok_and(only_ours)
 }
 
 /// Takes the directory for this process; `None` where the file system knows no locks.
@@ -245,8 +261,15 @@ impl RunDirectory {
             path: path.to_owned(),
             why,
         };
-        let text = fs::read_to_string(&file)
-            .map_err(|e| not_a_run(format!("{MANIFEST} cannot be read ({e})")))?;
+        let text = fs::read_to_string(&file).map_err(|e| {
+            not_a_run(if is_broken_start(path) {
+                "a run was ended here before its first state was written; begin it again with \
+                 --force"
+                    .to_owned()
+            } else {
+                format!("{MANIFEST} cannot be read ({e})")
+            })
+        })?;
         serde_json::from_str(&text)
             .map_err(|e| not_a_run(format!("{MANIFEST} cannot be understood ({e})")))
     }
