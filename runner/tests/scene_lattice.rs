@@ -67,7 +67,7 @@ fn shapes_that_share_a_face_share_no_particle_and_leave_no_gap() {
         );
         let outcome = scene.initial_state();
         assert!(
-            matches!(outcome, Err(SceneError::NoFluid { .. })),
+            matches!(outcome, Err(SceneError::EmptyRegion { .. })),
             "{a} and {b} leave a gap"
         );
     }

@@ -69,8 +69,8 @@ const GOLDEN: [(&str, &[&str], u64, [&str; 2]); 7] = [
         &["particle_spacing=0.0004"],
         60,
         [
-            "999c72dfb98ed978f258de86e2574a02",
-            "ddebc85be1744781616759dfb438cfac",
+            "aec41ba6bed7b11fbf230f280ae0da4b",
+            "f397c91c7c44c5a641950e21481e660f",
         ],
     ),
     (

@@ -117,7 +117,10 @@ fn is_broken_start(path: &Path) -> bool {
     let is_lock = |lock: fs::Metadata| lock.is_file() && lock.len() == 0;
     let is_ours = |name: &str| {
         let name = name.strip_suffix(".part").unwrap_or(name);
-        [LOCK, SCENE, SERIES, COLLECTION, FRAMES, SNAPSHOTS, "scene", "manifest"].contains(&name)
+        [
+            LOCK, SCENE, SERIES, COLLECTION, FRAMES, SNAPSHOTS, "scene", "manifest",
+        ]
+        .contains(&name)
     };
     let only_ours = |entries: fs::ReadDir| {
         entries

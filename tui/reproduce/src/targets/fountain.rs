@@ -25,7 +25,7 @@ use loschmidt_runner::{Frame, Player};
 /// Width of the nozzle, m.
 const WIDTH: f64 = 0.002;
 /// Height of the plane where the jet is counted, half a millimetre below the end of the nozzle, m.
-const PLANE: f64 = 0.0155;
+const PLANE: f64 = 0.0175;
 /// A look, s: the jet moves by less than the height of the nozzle.
 const LOOK: f64 = 5e-4;
 /// Looks over which the speed of a curve is averaged.
@@ -85,15 +85,16 @@ struct Seen {
 /// Whether a place is in the cell above the plate, or in its nozzle.
 fn in_cell(x: &[f64; 3]) -> bool {
     let half = match x[1] {
-        y if (0.0035..0.007).contains(&y) => 0.003,
-        y if (0.007..0.009).contains(&y) => 0.01 - y,
+        y if (0.0035..0.008).contains(&y) => 0.004,
+        y if (0.008..0.010).contains(&y) => 0.001 + 1.5 * (0.010 - y),
+        y if (0.010..0.018).contains(&y) => 0.5 * WIDTH,
         _ => 0.0,
     };
     x[0].abs() < half
 }
 
 fn in_bath(x: &[f64; 3]) -> bool {
-    (0.006..0.0135).contains(&x[0].abs()) && (0.001..0.0085).contains(&x[1])
+    (0.0062..0.0115).contains(&x[0].abs()) && (-0.0015..0.010).contains(&x[1])
 }
 
 fn mean(frame: &Frame, column: &str, inside: impl Fn(&[f64; 3]) -> bool) -> (f64, f64) {
@@ -113,9 +114,9 @@ fn field(frame: &Frame, column: &str, title: String, spacing: f64, zoom: bool) -
     Field {
         title,
         bounds: if zoom {
-            [[-0.004, 0.0015], [0.004, 0.0125]]
+            [[-0.0055, 0.0], [0.0055, 0.0185]]
         } else {
-            [[-0.015, -0.0006], [0.015, 0.028]]
+            [[-0.0126, -0.0026], [0.0126, 0.033]]
         },
         diameter: spacing,
         points: frame.position.iter().map(plane).collect(),
