@@ -98,6 +98,48 @@ fn the_last_good_state_is_the_one_before_the_step_that_failed() {
 }
 
 #[test]
+fn a_fault_leaves_the_same_state_for_any_cadence_of_output() {
+    let place = TempDir::new().expect("a directory");
+    let dam = ["particle_spacing=0.1", "output.snapshots=2"];
+    // Terms, velocities and positions that end: in the closing kick, which is joined with the
+    // opening one of the next step, and in the drift.
+    let scenes = [
+        ("dam-break", dam, "cfl=0.9"),
+        ("dam-break", dam, "cfl=2"),
+        ("dam-break", dam, "wall.energy=1e6"),
+        (
+            "colliding-drops",
+            ["particle_spacing=0.2", dam[1]],
+            "cfl=1.5",
+        ),
+    ];
+    let mut kinds = Vec::new();
+    for (n, (name, set, fault)) in scenes.into_iter().enumerate() {
+        let mut found = Vec::new();
+        for (k, options) in [serial(), fastest(2)].into_iter().enumerate() {
+            for rows in ["2", "7", "1000"] {
+                let rows = format!("output.rows={rows}");
+                let scene = scene(name, &[set[0], set[1], fault, &rows]);
+                let out = place.path().join(format!("{n}-{k}-{}", found.len()));
+                let mut run = Run::start(scene, options, Some((&out, false))).expect("a start");
+                let (fault, _, path) = fault_of(run.execute(|_| {}, &AtomicBool::new(false)));
+                let left = Snapshot::read(&path.expect("a snapshot")).expect("a snapshot");
+                let manifest = RunDirectory::read_manifest(&out).expect("a manifest");
+                assert_eq!(manifest.status, RunStatus::Failed);
+                found.push((fault, left.state, manifest.steps, manifest.digest.last));
+            }
+        }
+        assert!(found.iter().all(|one| *one == found[0]), "{name}, {fault}");
+        kinds.push(found[0].0.kind);
+    }
+    use FaultKind::{PositionRange, TermRange, VelocityRange};
+    assert_eq!(
+        kinds,
+        [TermRange, VelocityRange, VelocityRange, PositionRange]
+    );
+}
+
+#[test]
 fn every_executor_finds_the_same_fault() {
     for scene in [thrown(), standard("2.0")] {
         let faults: Vec<Fault> = every_way()

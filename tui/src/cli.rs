@@ -22,7 +22,7 @@ use std::path::PathBuf;
 #[command(
     name = "loschmidt",
     version,
-    after_help = "Exit codes: 0 all is well; 1 the run did not return exactly; 2 usage or scene; \
+    after_help = "Exit codes: 0 all is well; 1 the run did not return exactly, or `check` saw it fail; 2 usage or scene; \
                   3 output; 4 the numbers ended; 70 a defect of the program; 130 interrupted, can be \
                   resumed."
 )]

@@ -155,6 +155,32 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
 }
 
 #[test]
+fn check_foretells_the_failures_of_the_run_and_no_others() {
+    let place = Workplace::new();
+    // Steps too long for the sound: the run fails in step 28.
+    let set = ["--set=particle_spacing=0.1", "--set=cfl=0.9"];
+    let call = |command: &str, more: &str| {
+        let mut all = vec![command, "dam-break", set[0], set[1], more];
+        if command == "run" {
+            all.push("--quiet");
+        }
+        place.call(&all)
+    };
+    let foretold = call("check", "--set=turnaround=0.1").with_code(1).stdout;
+    let failed = call("run", "--set=turnaround=0.1").with_code(4).stderr;
+    let reason = "particle 2 in step 28: one of its force or density terms left the number range";
+    assert!(
+        foretold.contains(&format!("the run will fail, {reason}")),
+        "{foretold}"
+    );
+    assert!(failed.contains(reason), "{failed}");
+    // A run that turns before it does not.
+    let foretold = call("check", "--set=turnaround=0.02").with_code(0).stdout;
+    assert!(!foretold.contains("fail"), "{foretold}");
+    call("run", "--set=turnaround=0.02").with_code(0);
+}
+
+#[test]
 fn the_digest_of_a_snapshot_is_that_of_the_manifest() {
     let place = Workplace::new();
     for (n, (name, set)) in SHORT.into_iter().enumerate() {

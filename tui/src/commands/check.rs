@@ -2,7 +2,7 @@
 
 use super::print;
 use crate::cli::SceneArguments;
-use crate::exit::{Failure, USAGE};
+use crate::exit::{Failure, NOT_EXACT, USAGE};
 use crate::progress::duration;
 use loschmidt_core::Fault;
 use loschmidt_runner::run::Plan;
@@ -35,7 +35,8 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     let mut player = Player::new(scene, initial, options)
         .map_err(|error| Failure::new(USAGE, format!("error: {error}")))?;
     let limits = setup::force_limit(&mut player);
-    let pace = pace(&mut player, plan.total());
+    let pace = pace(&mut player, &plan);
+    let fails = pace.is_err();
 
     let mut text = String::new();
     let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
@@ -66,7 +67,7 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
                 duration(pace * plan.total() as f64),
                 player.threads()
             ),
-            Err(fault) => format!("unknown: the run ends soon, {fault}"),
+            Err(fault) => format!("none: the run will fail, {fault}"),
         },
     );
     line("time step", format!("{dt:.4e} s"));
@@ -127,7 +128,12 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     if let Some(fluid) = &player.scene().viscous {
         text += &viscous(player.scene(), fluid);
     }
-    print(&text)
+    let printed = print(&text)?;
+    Ok(if fails {
+        ExitCode::from(NOT_EXACT)
+    } else {
+        printed
+    })
 }
 
 /// How many particles there are of each sort.
@@ -353,15 +359,28 @@ const WANTED: f64 = 0.03;
 /// Relative change of the bulk stiffness by the lattice from which on it is worth a warning.
 const SPOILT: f64 = 0.05;
 
-/// Seconds per step, tried from the initial state; the first step is left out, for it warms up.
-fn pace(player: &mut Player, most: u64) -> Result<f64, Fault> {
-    player.advance(1)?;
-    let began = Instant::now();
-    let mut steps = 0;
-    let most = most.saturating_sub(1).min(1000);
-    while steps < 1 || (began.elapsed() < TRIAL && steps < most) {
-        player.advance(1)?;
-        steps += 1;
+/// Seconds of a step, after the first one: the first steps of the run are taken, as `run` would, for
+/// a while.
+fn pace(player: &mut Player, plan: &Plan) -> Result<f64, Fault> {
+    let mut step = || {
+        if player.steps_taken() == plan.out && plan.back > 0 {
+            player.turn();
+        }
+        player.advance(1)
+    };
+    let mut began = Instant::now();
+    let most = plan.total().min(1001);
+    let mut timed = 0;
+    for taken in 0..most {
+        step()?;
+        if taken == 0 && most > 1 {
+            began = Instant::now();
+            continue;
+        }
+        timed += 1;
+        if began.elapsed() >= TRIAL {
+            break;
+        }
     }
-    Ok(began.elapsed().as_secs_f64() / steps as f64)
+    Ok(began.elapsed().as_secs_f64() / f64::from(timed.max(1)))
 }
