@@ -12,7 +12,6 @@ use super::error::SceneError;
 use super::filling::visit;
 use super::geometry::Vector3;
 use super::lattice::Lattice;
-use super::overlap::describe;
 use super::region::Region;
 use super::shape::Shape;
 use super::superfluid::WallPressure;
@@ -351,7 +350,7 @@ impl Scene {
         let depth = region.shape.thinnest_layer();
         SceneError::EmptyRegion {
             scene: self.name.clone(),
-            region: (number, describe(region, self.dimension)),
+            region: (number, region.in_words(self.dimension)),
             particle_spacing: self.particle_spacing,
             help: match depth {
                 Some(depth) if depth < 0.5 => format!(

@@ -3,9 +3,8 @@
 use super::error::SceneError;
 use super::geometry::{AxisBox, Vector3, around_both, grown, overlap};
 use super::initial::InitialState;
-use super::region::Region;
 use super::types::Scene;
-use super::words::{Dimension, RegionKind};
+use super::words::RegionKind;
 
 /// Particles of two regions nearer than this, in spacings, are a mistake. Lattice nodes lie half a
 /// spacing inside the faces of their region, so that regions which only touch keep their particles
@@ -45,7 +44,7 @@ impl Scene {
                     && bodies[first] != bodies[second]
                     && let Some(point) = too_near(points, others, reach, axes)
                 {
-                    let region = |n| (n, describe(&self.regions[n], self.dimension));
+                    let region = |n: usize| (n, self.regions[n].in_words(self.dimension));
                     return Err(SceneError::BodiesTooNear {
                         scene: self.name.clone(),
                         regions: Box::new([region(first), region(second)]),
@@ -57,8 +56,8 @@ impl Scene {
                 if let Some(point) = too_near(points, others, near, axes) {
                     return Err(SceneError::Coincident {
                         scene: self.name.clone(),
-                        first: (first, describe(&self.regions[first], self.dimension)),
-                        second: (second, describe(&self.regions[second], self.dimension)),
+                        first: (first, self.regions[first].in_words(self.dimension)),
+                        second: (second, self.regions[second].in_words(self.dimension)),
                         point: point[..axes].to_vec(),
                     });
                 }
@@ -66,15 +65,6 @@ impl Scene {
         }
         Ok(())
     }
-}
-
-/// A region in a few words, such as "fluid, a circle".
-pub(super) fn describe(region: &Region, dimension: Dimension) -> String {
-    format!(
-        "{}, shape `{}`",
-        region.kind.word(),
-        region.shape.word(dimension)
-    )
 }
 
 /// The first point of `a` that is nearer than `near` to one of `b`.

@@ -4,7 +4,7 @@ use super::geometry::Vector3;
 use super::shape::Shape;
 use super::solid::{ElasticEnergy, Solid};
 use super::superfluid::{Counterflow, FirstEntropy};
-use super::words::{LatticeKind, RegionKind};
+use super::words::{Dimension, LatticeKind, RegionKind};
 use loschmidt_core::schemes::solid::Motion;
 use std::f64::consts::PI;
 
@@ -65,6 +65,15 @@ impl MaterialOfBody {
 }
 
 impl Region {
+    /// The region in a few words, such as "fluid, shape `circle`".
+    pub(super) fn in_words(&self, dimension: Dimension) -> String {
+        format!(
+            "{}, shape `{}`",
+            self.kind.word(),
+            self.shape.word(dimension)
+        )
+    }
+
     /// How a wall moves; others stand still.
     pub(super) fn motion(&self) -> Motion {
         match (self.kind, self.velocity) {

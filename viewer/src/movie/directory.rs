@@ -10,6 +10,7 @@
 //! never half of one.
 
 use super::error::MovieError;
+use super::target;
 use super::{MovieStyle, Times};
 use crate::colour::Rgb;
 use crate::raster::Raster;
@@ -227,9 +228,7 @@ pub(super) fn replace(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
 ) -> Result<(), MovieError> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let beside = path.with_file_name(name);
+    let beside = target::beside(path);
     let result = File::create(&beside).and_then(|file| {
         let mut file = BufWriter::new(file);
         write(&mut file)?;

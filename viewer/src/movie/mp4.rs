@@ -70,9 +70,7 @@ pub fn command(movie: &Movie, to: &Path, quote: impl Fn(&Path) -> String) -> Str
 /// There is no ffmpeg, or it failed; the file exists and `force` is not given.
 pub fn write(movie: &Movie, to: &Path, force: bool, by_hand: String) -> Result<(), MovieError> {
     target::check(to, force)?;
-    let mut name = to.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let beside = to.with_file_name(name);
+    let beside = target::beside(to);
     let spawned = Command::new("ffmpeg")
         .args(["-y", "-loglevel", "error", "-f", "image2pipe", "-framerate"])
         .arg(movie.style().fps.to_string())

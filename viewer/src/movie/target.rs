@@ -3,7 +3,14 @@
 use super::error::MovieError;
 use std::fs;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// The name under which a file is written, until it is whole.
+pub(super) fn beside(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    path.with_file_name(name)
+}
 
 /// Finds out whether a movie can be written there, before pictures are made for it.
 ///
@@ -18,13 +25,10 @@ pub fn check(path: &Path, force: bool) -> Result<(), MovieError> {
         Err(error) if error.kind() == ErrorKind::NotFound => {}
         Err(error) => return Err(MovieError::io("write", path)(error)),
     }
-    let Some(name) = path.file_name() else {
+    if path.file_name().is_none() {
         return Err(MovieError::NotAFile(path.to_owned()));
-    };
-    // A file is written under this name first.
-    let mut name = name.to_owned();
-    name.push(".part");
-    let beside = path.with_file_name(name);
+    }
+    let beside = beside(path);
     match fs::File::create_new(&beside) {
         Ok(_) => fs::remove_file(&beside),
         // Another export is at work, or one was broken off.
