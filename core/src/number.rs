@@ -410,6 +410,11 @@ impl Scale {
             density_exponent: exponent_at_least(2.0 * density) - 11,
         }
     }
+    /// Positions are kept for |x| below this, m.
+    #[must_use]
+    pub fn largest_length(&self) -> f64 {
+        power_of_two(self.length_exponent + 5)
+    }
     /// Metres per quantum of [`Length`].
     #[must_use]
     pub fn length_quantum(&self) -> f64 {

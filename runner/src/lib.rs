@@ -19,6 +19,7 @@
 
 pub mod deck;
 mod drive;
+pub mod enclosure;
 mod engine;
 mod executor;
 pub mod fast;
@@ -33,6 +34,7 @@ pub mod player;
 pub mod points;
 mod pool;
 mod random;
+pub mod ranged_fault;
 pub mod run;
 pub mod saved;
 pub mod scene;

@@ -2,12 +2,14 @@
 
 mod helium;
 mod limits;
-mod response;
+mod reach;
+mod sense;
 mod solids;
 
 pub use helium::{FlowSpeeds, flow_speeds, helium_parameters};
 pub use limits::{fixed_limits, force_limit};
-pub use response::{LatticeResponse, lattice_response};
+pub use reach::{Reach, enclosure, length_range, reach};
+pub use sense::{Sense, WANTED, WallSense, sense};
 pub use solids::{fluid_parameters, solid_parameters};
 
 use crate::engine::simulate;
@@ -28,7 +30,7 @@ use loschmidt_core::schemes::superfluid::{
 use loschmidt_core::schemes::wcsph::{
     AntiClump, Central, DensityCorrection, Filter, Gravity, StateEquation, Wall,
 };
-use loschmidt_core::{Arithmetic, Fixed, Float, Parameters, Scale, Standard, Symplectic};
+use loschmidt_core::{Arithmetic, Fixed, Float, Parameters, Standard, Symplectic};
 
 /// Sets up the scene's simulation at step 0.
 ///
@@ -168,7 +170,9 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
             scene::EquationOfState::Linear => StateEquation::Linear,
         },
         density_correction: match scene.water.density_correction {
-            scene::DensityCorrection::Constant => DensityCorrection::Constant,
+            scene::DensityCorrection::Constant | scene::DensityCorrection::Hydrostatic => {
+                DensityCorrection::Constant
+            }
             scene::DensityCorrection::Isc | scene::DensityCorrection::None => {
                 DensityCorrection::None
             }
@@ -188,9 +192,9 @@ pub fn parameters<const D: usize>(scene: &Scene, initial: &InitialState) -> Para
         }),
         filter_every: scene.water.filter_every,
         integrator: integrator(scene.integrator),
-        scale: Scale::with_headroom(
-            // A drop that is smaller than its kernel must still leave room for the kernel.
-            bounds.farthest.max(scene.support_radius()),
+        scale: reach::scale(
+            scene,
+            initial,
             // A flow that begins faster than its sound needs room for its speed.
             fluid.sound_speed.max(fastest(initial)),
             fluid.reference_density,
@@ -300,7 +304,9 @@ pub fn estimated_bytes(scene: &Scene) -> u64 {
         scene::DensityCorrection::Isc => {
             isc::estimated_bytes(dimension as u64, scene.support, fluid)
         }
-        scene::DensityCorrection::Constant | scene::DensityCorrection::None => 0,
+        scene::DensityCorrection::Constant
+        | scene::DensityCorrection::Hydrostatic
+        | scene::DensityCorrection::None => 0,
     };
     // What the correction takes is given back before the rest is taken.
     initial + correction.max(system + saved + frame)

@@ -142,18 +142,87 @@ fn overlapping_regions_are_refused_even_when_their_lattices_differ_by_rounding()
         "[[region]]\nkind = \"fluid\"\nshape.rectangle = { min = [0, 0], max = [1, 1] }\n[[region]]\nkind = \"fluid\"\nshape.rectangle = { min = [0.7, 0.1], max = [1.7, 0.9] }\n",
     );
     match scene.initial_state() {
-        Err(SceneError::Coincident {
-            first,
-            second,
+        Err(SceneError::Overlap {
+            regions,
             point,
+            apart,
             ..
         }) => {
-            assert_eq!((first.0, second.0), (0, 1));
+            assert_eq!((regions[0].0, regions[1].0), (0, 1));
+            assert!(apart.is_some_and(|apart| apart < 1e-6));
             assert_eq!(point.len(), 2);
             assert!((point[0] - 0.71).abs() < 1e-9 && (point[1] - 0.11).abs() < 1e-9);
         }
         other => panic!("{other:?}"),
     }
+}
+
+#[test]
+fn regions_that_overlap_are_refused_wherever_their_nodes_lie_unless_that_is_meant() {
+    let two = |a: &str, b: &str| {
+        format!(
+            "[[region]]\nkind = \"fluid\"\nshape = {a}\n[[region]]\nkind = \"fluid\"\nshape = {b}\n"
+        )
+    };
+    let square = "{ rectangle = { min = [0, 0], max = [1, 1] } }";
+    let half_off = two(
+        square,
+        "{ rectangle = { min = [0.55, 0.55], max = [1.5, 1.5] } }",
+    );
+    let near = |result| match result {
+        Err(SceneError::Overlap { apart, .. }) => apart,
+        other => panic!("{other:?}"),
+    };
+    // Nodes in the middle of four others.
+    let apart = near(with_regions(0.1, 2, &half_off).initial_state()).expect("near");
+    assert!((apart - 0.5_f64.sqrt()).abs() < 1e-6, "{apart}");
+    // Fluid half a spacing within a wall, whose rows lie at half spacings too.
+    let box_of = "{ layer = { around.rectangle = { min = [0, 0], max = [3, 1] }, depth = 2.5 } }";
+    let wall = format!(
+        "[[region]]\nkind = \"fluid\"\nshape = {square}\n\
+         [[region]]\nkind = \"fluid\"\nshape.rectangle = {{ min = [1.05, -0.05], max = [2, 1] }}\n\
+         [[region]]\nkind = \"wall\"\nshape = {box_of}\n"
+    );
+    let apart = near(with_regions(0.1, 2, &wall).initial_state()).expect("near");
+    assert!(
+        (apart - 0.5).abs() < 1e-6 || (apart - 0.5_f64.sqrt()).abs() < 1e-6,
+        "{apart}"
+    );
+    // In space the middle of eight nodes is farther from each than a wall may be, and inside.
+    let cube = "{ box = { min = [0, 0, 0], max = [1, 1, 1] } }";
+    let small = two(
+        cube,
+        "{ box = { min = [0.45, 0.45, 0.45], max = [0.55, 0.55, 0.55] } }",
+    );
+    assert_eq!(near(with_regions(0.1, 3, &small).initial_state()), None);
+    // Touching is not overlapping, and the key allows what is meant.
+    let beside = two(square, "{ rectangle = { min = [1, 0], max = [2, 1] } }");
+    let count = |result: Result<InitialState, _>| result.expect("a state").fluid.len();
+    assert_eq!(count(with_regions(0.1, 2, &beside).initial_state()), 200);
+    let allowed = format!("overlap = \"allow\"\n{half_off}");
+    assert_eq!(
+        count(with_regions(0.1, 2, &allowed).initial_state()),
+        100 + 81
+    );
+}
+
+#[test]
+fn what_a_region_fills_is_compared_with_its_shape() {
+    let filled = |shape: &str| {
+        let text = format!("[[region]]\nkind = \"fluid\"\nshape = {shape}\n");
+        with_regions(0.1, 2, &text).filled()
+    };
+    let square = filled("{ rectangle = { min = [0, 0], max = [0.95, 0.95] } }");
+    assert!((square[0].particles - 0.81).abs() < 1e-9);
+    assert!((square[0].shape / 0.9025 - 1.0).abs() < 1e-6);
+    assert!((square[0].excess() + 0.102_493).abs() < 1e-5);
+    let circle = filled("{ circle = { centre = [0, 0], radius = 1 } }");
+    assert!((circle[0].shape / std::f64::consts::PI - 1.0).abs() < 1e-3);
+    let flat = filled("{ rectangle = { min = [0, 0], max = [3, 0.1] } }");
+    assert!((flat[0].excess()).abs() < 1e-3);
+    let layer =
+        filled("{ layer = { around.rectangle = { min = [0, 0], max = [1, 1] }, depth = 2 } }");
+    assert!(layer.is_empty());
 }
 
 #[test]

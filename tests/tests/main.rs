@@ -26,6 +26,7 @@ mod run_dam_break;
 mod run_faults;
 mod run_solids;
 mod run_superfluid;
+mod sense;
 mod setup_errors;
 mod snapshot_bytes;
 mod solid;

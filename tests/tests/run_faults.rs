@@ -2,6 +2,7 @@
 
 use loschmidt_core::{Fault, FaultKind};
 use loschmidt_runner::output::{RunDirectory, RunStatus, Snapshot};
+use loschmidt_runner::ranged_fault::RangedFault;
 use loschmidt_runner::scene::Scene;
 use loschmidt_runner::{Options, Run, RunError};
 use loschmidt_tests::program::{
@@ -17,6 +18,7 @@ fn thrown() -> Scene {
         r#"
         particle_spacing = 0.1
         turnaround = 1.0
+        domain = 4.0
         fluid.sound_speed = 40
         [[region]]
         kind = "fluid"
@@ -41,7 +43,7 @@ fn fault_of(result: Result<loschmidt_runner::Outcome, RunError>) -> (Fault, f64,
             fault,
             time,
             snapshot,
-        }) => (fault, time, snapshot),
+        }) => (fault.fault, time, snapshot),
         other => panic!("no fault: {other:?}"),
     }
 }
@@ -74,7 +76,8 @@ fn assert_leaves_the_state_one_step_before(scene: &Scene, options: Options, out:
 
     let manifest = RunDirectory::read_manifest(out).expect("a manifest");
     assert_eq!(manifest.status, RunStatus::Failed);
-    assert_eq!(manifest.failure, Some(fault.to_string()));
+    let ending = RangedFault::of(&there, fault);
+    assert_eq!(manifest.failure, Some(ending.to_string()));
     assert_eq!(manifest.steps, fault.step - 1);
     assert_eq!(manifest.digest.last, snapshot.digest().to_string());
     let resumed = Run::resume(out, |_| options).err().expect("refused");

@@ -87,6 +87,18 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
             outcome.lone_particles
         );
     }
+    if let Some(compression) = outcome.seen.largest_compression {
+        text += &format!("\nlargest compression     {:.2} %", 100.0 * compression);
+        if compression > MOST_COMPRESSION {
+            text += ": TOO MUCH, the speed of sound is too low for this flow, or the time step too long";
+        }
+    }
+    if let Some(beyond) = outcome.seen.beyond_walls.filter(|beyond| *beyond > 0) {
+        text += &format!(
+            "\nbeyond the walls        {beyond} particles, where the fluid cannot come without passing a \
+             wall: `loschmidt check` says whether the walls are strong and dense enough"
+        );
+    }
     text += &format!("\ndigest at the start     {}", outcome.digest.initial);
     if let Some(digest) = &outcome.digest.turnaround {
         text += &format!("\ndigest, turnaround      {digest}");
@@ -94,6 +106,10 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
     text += &format!("\ndigest at the end       {}", outcome.digest.last);
     text
 }
+
+/// From this compression on a fluid is not the one that was meant: that of a dam break which hits its
+/// wall is below.
+const MOST_COMPRESSION: f64 = 0.1;
 
 /// Writes energies whose largest is this: in J, or where that is little in a smaller unit.
 fn joules(largest: f64) -> impl Fn(f64) -> String {

@@ -114,6 +114,9 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
         }
         assert!(!text.contains("EXCEEDED"), "{text}");
         assert!(!text.contains("SPOILT"), "{text}");
+        for warning in ["TOO LOW", "HOLES", "does not fit"] {
+            assert!(!text.contains(warning), "{text}");
+        }
         assert_eq!(solid, text.contains("Young's modulus"), "{text}");
         assert_eq!(viscous, text.contains("relaxation time"), "{text}");
         let helium = text.contains("second sound");
@@ -151,6 +154,38 @@ fn check_tells_what_every_scene_of_the_catalogue_takes() {
             .expect("a directory")
             .next()
             .is_none()
+    );
+}
+
+#[test]
+fn check_compares_walls_sound_and_shapes_with_the_flow() {
+    let place = Workplace::new();
+    let set = |more: &'static str| {
+        let arguments = [
+            "check",
+            "dam-break",
+            "--set=particle_spacing=0.1",
+            "--set",
+            more,
+        ];
+        place.call(&arguments).with_code(0).stdout
+    };
+    for (more, warning) in [
+        ("wall.energy=1", "TOO LOW (ten times, "),
+        ("wall.radius=0.5", "HOLES"),
+        (
+            "fluid.sound_speed=20",
+            "TOO LOW (ten times), the density changes by about ",
+        ),
+        ("particle_spacing=0.13", "does not fit the particle spacing"),
+    ] {
+        let text = set(more);
+        assert!(text.contains(warning), "{more}: {text}");
+    }
+    let text = set("domain=30");
+    assert!(
+        text.contains("32 m from the origin along each axis"),
+        "{text}"
     );
 }
 

@@ -3,7 +3,7 @@
 use super::messages::Meddling;
 use crate::output::{Manifest, OutputError, RunDirectory, RunStatus, Snapshot};
 use crate::player::{Arrow, Player};
-use crate::run::{Digests, Plan, Row, scene_hash};
+use crate::run::{Digests, Plan, Row, Seen, scene_hash};
 use std::path::{Path, PathBuf};
 
 /// The directory that a deck has created.
@@ -53,6 +53,7 @@ impl Keeper {
             executor: options.executor.name().to_owned(),
             threads: options.threads.get(),
             meddling: meddling.to_vec(),
+            seen: Seen::default(),
             failure: None,
             digest: Digests {
                 initial: player.home_digest().to_string(),

@@ -3,12 +3,13 @@
 use crate::frame::Frame;
 use crate::player::{Arrow, PlayerError, Return};
 use crate::points::Points;
+use crate::ranged_fault::RangedFault;
 use crate::run::Row;
 use crate::saved::ArithmeticKind;
 use crate::scene::Scene;
 use crate::simulation::{BuildError, Options};
 use loschmidt_core::observe::SpeedHistogram;
-use loschmidt_core::{Digest, Fault, Reversibility};
+use loschmidt_core::{Digest, Reversibility};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use thiserror::Error;
@@ -68,7 +69,7 @@ pub enum Report {
     /// A command was not carried out.
     Refused(Refusal),
     /// The numbers ended; the state is the last one that was measured before.
-    Fault(Fault),
+    Fault(RangedFault),
     /// The state is in this directory.
     Kept(PathBuf),
     /// It could not be written.
@@ -91,7 +92,7 @@ pub enum Beside {
         travel: Arrow,
     },
     /// Its numbers ended; it says nothing more.
-    Ended(Fault),
+    Ended(RangedFault),
 }
 
 /// A scene that was set up.

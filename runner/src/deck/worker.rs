@@ -15,6 +15,7 @@ use super::waypoints::Waypoints;
 use crate::player::{Arrow, Player};
 use crate::points::Points;
 use crate::pool::Rayon;
+use crate::ranged_fault::RangedFault;
 use crate::run::{Plan, Row, RunError};
 use crate::saved::{ArithmeticKind, SavedState};
 use loschmidt_core::Fault;
@@ -232,7 +233,10 @@ impl Worker {
             Ok(done) => Some(done),
             Err(fault) => {
                 self.companion = None;
-                (self.tell)(Report::Beside(Beside::Ended(fault)));
+                (self.tell)(Report::Beside(Beside::Ended(RangedFault::of(
+                    &self.player,
+                    fault,
+                ))));
                 None
             }
         }
@@ -342,7 +346,7 @@ impl Worker {
         self.playing = false;
         self.seek = None;
         self.stand();
-        (self.tell)(Report::Fault(fault));
+        (self.tell)(Report::Fault(RangedFault::of(&self.player, fault)));
         self.report();
     }
 

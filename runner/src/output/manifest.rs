@@ -1,7 +1,7 @@
 //! `manifest.json`: what a run directory is, for people and for `resume`.
 
 use crate::deck::Meddling;
-use crate::run::{Digests, Outcome};
+use crate::run::{Digests, Outcome, Seen};
 use serde::{Deserialize, Serialize};
 
 /// How far a run has come.
@@ -45,6 +45,9 @@ pub struct Manifest {
     /// How a user who watched it changed the state by hand.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub meddling: Vec<Meddling>,
+    /// What was seen of the scene so far.
+    #[serde(default)]
+    pub seen: Seen,
     /// The digests known so far.
     pub digest: Digests,
     /// The result of a finished run; written, never read back.

@@ -5,9 +5,13 @@ use super::error::RunError;
 use super::outcome::{Cost, Digests, Outcome};
 use super::plan::Plan;
 use super::row::Row;
+use super::seen::Seen;
+use crate::enclosure::Enclosure;
+use crate::frame::Frame;
 use crate::output::{Manifest, OutputError, RunDirectory, RunStatus, Snapshot};
 use crate::player::{Arrow, Player};
 use crate::pool::Rayon;
+use crate::ranged_fault::RangedFault;
 use crate::saved::ArithmeticKind;
 use crate::scene::{Scene, Source};
 use crate::setup;
@@ -54,6 +58,9 @@ pub struct Run {
     scene_hash: [u8; 16],
     rows: Vec<Row>,
     turnaround_digest: Option<String>,
+    /// What the walls enclose.
+    walls: Option<Enclosure>,
+    seen: Seen,
     /// The state that a run is taken back to when a step fails.
     good: Good,
     directory: Option<RunDirectory>,
@@ -88,12 +95,12 @@ impl Run {
         ready: impl FnOnce(),
     ) -> Result<Self, RunError> {
         let started = Instant::now();
-        let player = new_player(scene, options)?;
+        let (player, walls) = new_player(scene, options)?;
         ready();
         let directory = out
             .map(|(path, force)| RunDirectory::create(path, force))
             .transpose()?;
-        let mut run = Self::new(player, directory, started);
+        let mut run = Self::new(player, walls, directory, started);
         if let Some(directory) = &run.directory {
             directory.write_scene(&run.player.scene().to_toml())?;
         }
@@ -132,7 +139,7 @@ impl Run {
             arithmetic,
             ..choose(&manifest)
         };
-        let mut player = new_player(scene, options)?;
+        let (mut player, walls) = new_player(scene, options)?;
         let plan = Plan::of(player.scene());
         let read = |name: &str, belongs: &dyn Fn(&Snapshot) -> bool| -> Result<_, RunError> {
             let file = RunDirectory::snapshot_path(path, name);
@@ -157,7 +164,8 @@ impl Run {
         player.restore_home(home.state)?;
         player.restore(&latest.state, latest.position, latest.arrow)?;
         let step = latest.state.step;
-        let mut run = Self::new(player, None, started);
+        let mut run = Self::new(player, walls, None, started);
+        run.seen = manifest.seen;
         run.rows = RunDirectory::read_rows(path, step)?;
         run.check_rows(path)?;
         run.turnaround_digest = turnaround.map(|snapshot| snapshot.digest().to_string());
@@ -167,12 +175,19 @@ impl Run {
         Ok(run)
     }
 
-    fn new(player: Player, directory: Option<RunDirectory>, started: Instant) -> Self {
+    fn new(
+        player: Player,
+        walls: Option<Enclosure>,
+        directory: Option<RunDirectory>,
+        started: Instant,
+    ) -> Self {
         Self {
             plan: Plan::of(player.scene()),
             scene_hash: scene_hash(player.scene()),
             rows: Vec::new(),
             turnaround_digest: None,
+            walls,
+            seen: Seen::default(),
             good: Good::Home,
             directory,
             player,
@@ -306,8 +321,14 @@ impl Run {
                 Ok(frame) => frame,
                 Err(fault) => return Err(self.fail(fault)?),
             };
+            self.look(&frame);
             if let Some(directory) = &mut self.directory {
                 directory.write_frame(&frame)?;
+            }
+        } else if step == self.plan.out || step == self.plan.total() {
+            match self.player.frame() {
+                Ok(frame) => self.look(&frame),
+                Err(fault) => return Err(self.fail(fault)?),
             }
         }
         if due.snapshot {
@@ -328,6 +349,11 @@ impl Run {
             self.write_manifest(RunStatus::Running, None, None)?;
         }
         Ok(())
+    }
+
+    fn look(&mut self, frame: &Frame) {
+        let density = self.player.scene().reference_density();
+        self.seen.look(frame, density, self.walls.as_ref());
     }
 
     fn snapshot(&mut self) -> Snapshot {
@@ -368,6 +394,7 @@ impl Run {
             threads: options.threads.get(),
             meddling: Vec::new(),
             failure,
+            seen: self.seen,
             digest: Digests {
                 initial: self.player.home_digest().to_string(),
                 turnaround: self.turnaround_digest.clone(),
@@ -421,10 +448,12 @@ impl Run {
             self.player.advance(1)?;
         }
         let snapshot = self.write_snapshot("latest")?;
+        let time = fault.step as f64 * self.player.scene().time_step();
+        let fault = RangedFault::of(&self.player, fault);
         self.write_manifest(RunStatus::Failed, Some(fault.to_string()), None)?;
         Ok(RunError::Fault {
             fault,
-            time: fault.step as f64 * self.player.scene().time_step(),
+            time,
             snapshot,
         })
     }
@@ -446,6 +475,7 @@ impl Run {
             came_back,
             last_digest,
             lone_particles,
+            self.seen,
             cost,
         )
         .ok_or(RunError::NoRows)?;
@@ -455,12 +485,13 @@ impl Run {
 }
 
 /// Home, after the memory for it was found to be there.
-fn new_player(scene: Scene, options: Options) -> Result<Player, RunError> {
+fn new_player(scene: Scene, options: Options) -> Result<(Player, Option<Enclosure>), RunError> {
     setup::check_memory(&scene)?;
     // The initial state correction works on the threads that the run may have.
     let threads = Rayon::new(options.threads).map_err(BuildError::from)?;
     let initial = threads.install(|| scene.initial_state())?;
-    Ok(Player::new(scene, initial, options)?)
+    let walls = setup::enclosure(&scene, &initial);
+    Ok((Player::new(scene, initial, options)?, walls))
 }
 
 /// Whether a snapshot is that of the scene in this run directory. The text that was written there is

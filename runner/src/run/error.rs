@@ -1,6 +1,7 @@
 //! How a run can end before its end.
 
 use crate::output::OutputError;
+use crate::ranged_fault::RangedFault;
 use crate::scene::SceneError;
 use crate::setup::MemoryError;
 use crate::simulation::BuildError;
@@ -26,8 +27,8 @@ pub enum RunError {
     /// The numbers ended.
     #[error("the run ended at t = {time:.6} s: {fault}")]
     Fault {
-        /// Particle and step.
-        fault: Fault,
+        /// Particle, step and range.
+        fault: RangedFault,
         /// Simulated time along both legs, s.
         time: f64,
         /// The last good state, one step before.

@@ -8,6 +8,7 @@ mod error;
 mod outcome;
 mod plan;
 mod row;
+mod seen;
 
 pub use course::{Progress, Run};
 pub(crate) use course::{belongs, scene_hash};
@@ -18,3 +19,4 @@ pub use outcome::{
 };
 pub use plan::{Due, Plan};
 pub use row::Row;
+pub use seen::Seen;

@@ -1,6 +1,7 @@
 //! What a run found: the one object that `--json` prints, computed from its rows and digests.
 
 use super::row::Row;
+use super::seen::Seen;
 use crate::player::{Player, Return};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -167,6 +168,9 @@ pub struct Outcome {
     /// feel all of its shear, or of the gradient of the temperature: what has torn off. Zero for
     /// water.
     pub lone_particles: u64,
+    /// Signs that the scene is not what it is meant to be.
+    #[serde(flatten)]
+    pub seen: Seen,
     /// Everything, output included, s. Of the last piece of a run that was resumed.
     pub wall_time_s: f64,
     /// Time of the step loop times threads over particles times steps, ns.
@@ -250,6 +254,7 @@ impl Outcome {
         came_back: Option<Return>,
         last_digest: String,
         lone_particles: u64,
+        seen: Seen,
         cost: Cost,
     ) -> Option<Self> {
         let scene = player.scene();
@@ -298,6 +303,7 @@ impl Outcome {
             },
             totals: TotalOverTime::all(rows, two_way),
             lone_particles,
+            seen,
             wall_time_s: cost.wall_s,
             ns_per_particle_step: if work > 0.0 {
                 cost.loop_s * 1e9 * threads as f64 / work

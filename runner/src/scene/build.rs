@@ -13,7 +13,7 @@ use super::spec::{SceneSpec, WrittenValue};
 use super::types::{Scene, TOP, whole_steps};
 use super::values::{as_table, elements};
 use super::viscous::Relaxation;
-use super::wcsph::WallModel;
+use super::wcsph::{DensityCorrection, WallModel};
 use super::words::{Dimension, RegionKind};
 use loschmidt_core::schemes::solid::{MAX_BODIES, MAX_PARTS, MOST_OF_PAPER};
 use loschmidt_core::schemes::superfluid::{Helium, MAX_WALLS};
@@ -31,6 +31,7 @@ pub(super) fn build(spec: &SceneSpec) -> Result<Scene, SceneError> {
     let mut scene = Scene::read(&mut builder, top);
     name(&mut builder, top, &mut scene, &spec.stem);
     wall(&mut builder, top, &scene);
+    hydrostatic(&mut builder, top, &scene);
     times(&mut builder, top, &scene);
     exclusions(&mut builder, top, scene.model);
     forces(&mut builder, top, &scene);
@@ -83,6 +84,27 @@ fn wall<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
             ],
         );
     }
+}
+
+/// Water at rest needs a weight, and a model whose density has a constant.
+fn hydrostatic<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
+    let entry = top.table.get("density_correction");
+    let asked = scene.water.density_correction == DensityCorrection::Hydrostatic;
+    let Some(entry) = entry.filter(|_| asked) else {
+        return;
+    };
+    let why = if scene.gravity.uniform == [0.0; 3] {
+        "it needs a weight: set `gravity.uniform`"
+    } else if scene.model == Model::Standard {
+        "the density of this model is advanced in time: write `model = \"symplectic\"`"
+    } else {
+        return;
+    };
+    builder.conflict(
+        "`density_correction = \"hydrostatic\"` does not go with this scene".to_owned(),
+        entry.node.span,
+        why.to_owned(),
+    );
 }
 
 /// Bodies: not too many, and one lattice each.

@@ -103,27 +103,35 @@ pub enum SceneError {
         #[source]
         reason: NotConverged,
     },
-    /// Two particles start on one point, or much nearer than a spacing.
+    /// Two regions fill one place.
     #[error(
-        "error: two particles of scene `{scene}` lie on or almost on one point, ({})\n  \
+        "error: two regions of scene `{scene}` overlap, at ({}): {}\n  \
          region {}: {}\n  region {}: {}\n\
          help: regions may touch but not overlap: \
-         subtract one shape from the other with `difference`",
+         subtract one shape from the other with `difference`{}\n\
+         help: `overlap = \"allow\"` fills both as they are",
         coordinates(.point),
-        .first.0,
-        .first.1,
-        .second.0,
-        .second.1
+        overlap(*.apart),
+        .regions[0].0,
+        .regions[0].1,
+        .regions[1].0,
+        .regions[1].1,
+        if .apart.is_some() {
+            ", and make their sizes and distances multiples of `particle_spacing`"
+        } else {
+            ""
+        }
     )]
-    Coincident {
+    Overlap {
         /// Name of the scene.
         scene: String,
-        /// Number of the first region in file order, from 0, and its description.
-        first: (usize, String),
-        /// Number of the second region and its description.
-        second: (usize, String),
-        /// The point, m; as many coordinates as dimensions.
+        /// Numbers of the regions in file order, from 0, and their descriptions.
+        regions: Box<[(usize, String); 2]>,
+        /// A particle there, m; as many coordinates as dimensions.
         point: Vec<f64>,
+        /// How near the particles of both are to each other there, in spacings; `None` where a
+        /// particle of one lies in the shape of the other without being near to any of its.
+        apart: Option<f64>,
     },
     /// Two bodies start within the reach of each other's forces.
     #[error(
@@ -176,6 +184,20 @@ pub enum SceneError {
         /// Number of lattice nodes in the bounds of the shape.
         nodes: u64,
     },
+    /// Particles start outside of what the scene says they may come to.
+    #[error(
+        "error: the particles of scene `{scene}` start as far as {reach:?} m from the origin along \
+         an axis, and `domain` is {domain:?} m\nhelp: allowed: at least {reach:?} m, with room for \
+         where they go"
+    )]
+    OutsideDomain {
+        /// Name of the scene.
+        scene: String,
+        /// Largest coordinate, m.
+        reach: f64,
+        /// The largest one that was allowed, m.
+        domain: f64,
+    },
     /// So far from the origin that neighbouring lattice nodes round to one number.
     #[error(
         "error: region {region} of scene `{scene}` reaches {reach:?} m from the origin, too far \
@@ -206,6 +228,15 @@ fn scene_help(nearest: Option<&str>) -> String {
         "{suggestion}\nhelp: the scenes are {}; a file is given by its path",
         listed(&names, "and")
     )
+}
+
+fn overlap(apart: Option<f64>) -> String {
+    match apart {
+        Some(apart) => {
+            format!("their particles are {apart:.2} spacings apart there, at least 0.8 are wanted")
+        }
+        None => "a particle of one lies in the shape of the other".to_owned(),
+    }
 }
 
 fn coordinates(point: &[f64]) -> String {

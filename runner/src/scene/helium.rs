@@ -6,7 +6,6 @@ use super::filling::visit;
 use super::geometry::{Vector3, around_both, grown};
 use super::initial::{GivenField, InitialState};
 use super::lattice::Lattice;
-use super::overlap::TOO_NEAR;
 use super::shape::Shape;
 use super::superfluid::{Counterflow, FirstEntropy};
 use super::types::Scene;
@@ -65,6 +64,9 @@ pub(super) fn entropy<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<F
     })
 }
 
+/// A node nearer to a wall particle than this, in spacings, is the place of that particle.
+const ITSELF: f64 = 0.45;
+
 impl Scene {
     /// Gives a superfluid its first counterflow and entropy, where it is; `entropy` is s0.
     pub(super) fn set_counterflows(
@@ -118,7 +120,7 @@ impl Scene {
                 let squares = (0..axes).map(|k| (x[k] - middle[k]) * (x[k] - middle[k]));
                 let r = squares.sum::<f64>().sqrt();
                 let counts = (0..axes).all(|k| inside.0[k] <= x[k] && x[k] <= inside.1[k]);
-                if counts && r > TOO_NEAR * lattice.spacing && r < reach {
+                if counts && r > ITSELF * lattice.spacing && r < reach {
                     sum += volume * kernel.value(r);
                 }
             });

@@ -119,8 +119,8 @@ impl Scene {
     /// # Errors
     ///
     /// [`SceneError::NoFluid`], [`SceneError::EmptyRegion`], [`SceneError::TooManyParticles`],
-    /// [`SceneError::TooFar`], [`SceneError::TooSparse`], and [`SceneError::Coincident`] when
-    /// particles of two regions lie on one point or nearly so; [`SceneError::NotCorrected`] when
+    /// [`SceneError::TooFar`], [`SceneError::TooSparse`], and [`SceneError::Overlap`] when two
+    /// regions fill one place; [`SceneError::OutsideDomain`]; [`SceneError::NotCorrected`] when
     /// the initial state correction does not converge.
     pub fn initial_state(&self) -> Result<InitialState, SceneError> {
         let no_fluid = || SceneError::NoFluid {
@@ -175,6 +175,7 @@ impl Scene {
             }
             placed.push((number, region.kind, before));
         }
+        self.refuse_outside_domain(&state)?;
         self.refuse_overlap(&state, &placed)?;
         if let Some(viscous) = self.viscous
             && viscous.wall_velocity == WallVelocity::Mirrored
@@ -188,6 +189,7 @@ impl Scene {
         if self.water.density_correction == DensityCorrection::Isc {
             self.correct(&mut state)?;
         }
+        self.set_hydrostatic(&mut state, &placed);
         self.set_velocities(&mut state, &placed);
         if let Some(superfluid) = self.superfluid {
             let entropy = superfluid.helium().entropy;
@@ -324,7 +326,7 @@ impl Scene {
 
     /// The lattice of a region: of fluid its own, of a solid that of the first region of its body;
     /// none for a wall, and for what has no corner.
-    fn lattice_of(&self, number: usize) -> Option<Lattice> {
+    pub(super) fn lattice_of(&self, number: usize) -> Option<Lattice> {
         match self.regions[number].kind {
             RegionKind::Fluid => self.own_lattice(&self.regions[number]),
             RegionKind::Solid => {
@@ -360,6 +362,19 @@ impl Scene {
                 ),
                 _ => "make it thicker than a spacing, or `particle_spacing` smaller".to_owned(),
             },
+        }
+    }
+
+    fn refuse_outside_domain(&self, state: &InitialState) -> Result<(), SceneError> {
+        let all = state.fluid.iter().chain(&state.wall);
+        let reach = all.flatten().fold(0.0, |far: f64, x| far.max(x.abs()));
+        match self.domain {
+            Some(domain) if reach > domain => Err(SceneError::OutsideDomain {
+                scene: self.name.clone(),
+                reach,
+                domain,
+            }),
+            _ => Ok(()),
         }
     }
 

@@ -42,10 +42,12 @@ mod check;
 mod declare;
 mod error;
 mod exclusive;
+mod filled;
 mod filling;
 mod forces;
 mod geometry;
 mod helium;
+mod hydrostatic;
 mod initial;
 mod lattice;
 mod model;
@@ -58,12 +60,14 @@ mod print;
 mod region;
 mod region_keys;
 mod regions;
+mod response;
 mod schema;
 mod shape;
 mod solid;
 mod source;
 mod spec;
 mod step;
+mod stretch;
 mod superfluid;
 mod surface;
 mod thickness;
@@ -75,22 +79,25 @@ mod words;
 
 pub use catalogue::{CatalogueEntry, catalogue};
 pub use error::{Line, Place, Problem, ProblemKind, Problems, SceneError};
+pub use filled::Filled;
 pub use forces::{CentralGravity, Gravity};
 pub use geometry::Vector3;
 pub use initial::{GivenField, InitialPart, InitialState, InitialWall};
 pub use model::Model;
 pub use region::{MaterialOfBody, Region, Velocity};
+pub use response::{LatticeResponse, lattice_response};
 pub use shape::Shape;
 pub use solid::{ElasticEnergy, Solid};
 pub use source::{Source, resolve};
 pub use step::StepRule;
+pub use stretch::stretched_density;
 pub use superfluid::{
     Counterflow, FirstEntropy, Heater, HeliumAt, Operators, Superfluid, Superleak, WallPressure,
 };
 pub use types::{Output, Scene};
 pub use viscous::{Relaxation, Viscous, WallVelocity};
 pub use wcsph::{DensityCorrection, EquationOfState, Fluid, WallModel, WallPotential, Water};
-pub use words::{Dimension, Integrator, LatticeKind, RegionKind};
+pub use words::{Dimension, Integrator, LatticeKind, Overlap, RegionKind};
 
 /// Reads a scene, merges the overrides `path=value` into it in their order, and validates
 /// the result.

@@ -14,7 +14,7 @@ use super::step::StepRule;
 use super::superfluid::Superfluid;
 use super::viscous::Viscous;
 use super::wcsph::{Fluid, WallPotential, Water};
-use super::words::{Dimension, Integrator};
+use super::words::{Dimension, Integrator, Overlap};
 use crate::time_unit::TimeUnit;
 use loschmidt_core::schemes::solid::Material;
 
@@ -35,6 +35,11 @@ keys! {
             "time at which all velocities are reversed; absent: a one-way run", "s";
         end: Option<f64> = Optional, Above(0.0),
             "time at which the run stops, both legs added; absent: twice the turnaround", "s";
+        domain: Option<f64> = Optional, Above(0.0),
+            "largest coordinate, along any axis, that particles may come to; absent: what the first \
+             positions, velocities and forces let expect", "m";
+        overlap: Overlap = Word(Overlap::Refuse.word()), Any,
+            "regions that overlap, or come nearer than 0.8 particle spacings";
         model: Model = Word(Model::Symplectic.word()), Any,
             "water: density by summation (reversible), advanced in time, \
              or summed with a filter of noise (dissipative); elastic bodies: \

@@ -20,7 +20,8 @@ keys! {
             printed after "model";
         density_correction: DensityCorrection = Word(DensityCorrection::Constant.word()), Any,
             "what makes the first density the reference density: a constant per particle, \
-             an initial state correction (the particles are moved), or nothing";
+             an initial state correction (the particles are moved), or nothing; or the constant makes \
+             it that of water at rest under gravity";
         wall_model: WallModel = Word(WallModel::Conservative.word()), Any,
             "repulsive potential, fixed fluid particles, or walls left out";
     }
@@ -64,6 +65,8 @@ words! {
         /// The particles are moved until the bare sum is the reference density (see
         /// [`isc`](crate::isc)).
         Isc = "isc",
+        /// C_a makes the first pressure carry the weight above: water at rest stays at rest.
+        Hydrostatic = "hydrostatic",
         /// The bare sum over the neighbours.
         None = "none",
     }

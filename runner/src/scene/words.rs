@@ -54,6 +54,16 @@ macro_rules! words {
 pub(super) use words;
 
 words! {
+    /// What is done about regions that overlap.
+    Overlap {
+        /// Refused, with the place of the first particle.
+        Refuse = "refuse",
+        /// Each region is filled as if the others were not there.
+        Allow = "allow",
+    }
+}
+
+words! {
     /// Which row of the table of integrators composes drifts and kicks.
     Integrator {
         /// Störmer–Verlet: second order, one force evaluation a step.

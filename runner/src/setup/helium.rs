@@ -1,10 +1,9 @@
 //! From a scene of superfluid helium to the parameters of its models.
 
-use super::{Bounds, fastest, first, largest, max_buckets};
+use super::{Bounds, fastest, first, largest, max_buckets, reach};
 use crate::scene::{
     InitialState, InitialWall, Region, RegionKind, Scene, Vector3, Velocity, WallPressure,
 };
-use loschmidt_core::Scale;
 use loschmidt_core::observe::BINS;
 use loschmidt_core::schemes::superfluid::{
     Heater, Helium, HeliumParameters, Operators, Superleak, WallPart,
@@ -61,8 +60,9 @@ pub fn helium_parameters<const D: usize>(
                 time: leak.time,
             }),
         speed_bin: flow.whole / BINS as f64,
-        scale: Scale::with_headroom(
-            bounds.farthest.max(scene.support_radius()),
+        scale: reach::scale(
+            scene,
+            initial,
             helium.sound_speed.max(fastest(initial)).max(counterflow),
             helium.reference_density,
         ),

@@ -1,8 +1,7 @@
 //! The parameters of bodies and fluids whose particles carry a distortion.
 
-use super::{Bounds, fastest, first, max_buckets};
+use super::{Bounds, fastest, first, max_buckets, reach};
 use crate::scene::{InitialState, Scene};
-use loschmidt_core::Scale;
 use loschmidt_core::schemes::solid::{FluidParameters, Parameters, Part, Relaxation, WallVelocity};
 
 /// The core's parameters of a scene of elastic bodies; those of another scene are refused by every
@@ -25,8 +24,9 @@ pub fn solid_parameters<const D: usize>(scene: &Scene, initial: &InitialState) -
         materials: scene.materials().into_iter().collect(),
         parts: initial.parts.iter().map(part).collect(),
         gravity: first(scene.gravity.uniform),
-        scale: Scale::with_headroom(
-            bounds.farthest.max(scene.support_radius()),
+        scale: reach::scale(
+            scene,
+            initial,
             scene.sound_speed().max(fastest(initial)),
             scene.reference_density(),
         ),

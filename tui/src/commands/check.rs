@@ -1,6 +1,6 @@
 //! `check`: what a scene takes, without running it.
 
-use super::print;
+use super::{print, sense};
 use crate::cli::SceneArguments;
 use crate::exit::{Failure, NOT_EXACT, USAGE};
 use crate::progress::duration;
@@ -8,7 +8,7 @@ use loschmidt_core::Fault;
 use loschmidt_runner::run::Plan;
 use loschmidt_runner::scene::{
     InitialState, Region, RegionKind, Relaxation, Scene, Solid, Superfluid, Velocity, Viscous,
-    load, resolve,
+    lattice_response, load, resolve,
 };
 use loschmidt_runner::setup;
 use loschmidt_runner::{Options, Player};
@@ -29,6 +29,7 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     let initial = scene.initial_state()?;
     let (fluid, walls) = (initial.fluid.len(), initial.wall.len());
     let particles = particles(&scene, &initial);
+    let makes_sense = sense::lines(&scene, &initial);
     let plan = Plan::of(&scene);
     let dt = scene.time_step();
     let options = Options::default();
@@ -121,6 +122,7 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         Ok(force) => limit("  force limit", force, rule),
         Err(fault) => line("  force limit", format!("unknown: {fault}")),
     }
+    text += &makes_sense;
     text += &materials(player.scene());
     if let Some(superfluid) = &player.scene().superfluid {
         text += &helium(player.scene(), superfluid);
@@ -327,7 +329,7 @@ fn elastic(scene: &Scene, solid: &Solid) -> String {
     }
     let mut seen = Vec::new();
     for kind in scene.regions.iter().filter_map(|region| region.lattice) {
-        let Some(response) = setup::lattice_response(kind, scene.support) else {
+        let Some(response) = lattice_response(kind, scene.support) else {
             continue;
         };
         if seen.contains(&kind) {

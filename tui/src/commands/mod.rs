@@ -5,6 +5,7 @@ mod movie;
 mod reproduce;
 mod run;
 mod scenes;
+mod sense;
 mod tui;
 #[cfg(feature = "window")]
 mod view;

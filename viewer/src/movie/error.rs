@@ -1,7 +1,7 @@
 //! Why there is no movie.
 
-use loschmidt_core::Fault;
 use loschmidt_runner::RunError;
+use loschmidt_runner::ranged_fault::RangedFault;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -80,8 +80,8 @@ pub enum MovieError {
         arithmetic: &'static str,
         /// Time along both legs, s.
         time: f64,
-        /// Particle and step.
-        fault: Fault,
+        /// Particle, step and range.
+        fault: RangedFault,
     },
     /// A signal came.
     #[error("interrupted after {done} of {total} pictures")]

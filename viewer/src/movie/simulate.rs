@@ -13,6 +13,7 @@ use loschmidt_core::digest::hash;
 use loschmidt_runner::output::Snapshot;
 use loschmidt_runner::output::series::{self, SeriesWriter};
 use loschmidt_runner::player::Return;
+use loschmidt_runner::ranged_fault::RangedFault;
 use loschmidt_runner::run::Row;
 use loschmidt_runner::{ArithmeticKind, Arrow, Player, Points, SavedState};
 use std::fs::File;
@@ -332,7 +333,7 @@ fn fault_of(player: &Player, fault: loschmidt_core::Fault) -> MovieError {
             ArithmeticKind::Float => "floating",
         },
         time: fault.step as f64 * player.scene().time_step(),
-        fault,
+        fault: RangedFault::of(player, fault),
     }
 }
 

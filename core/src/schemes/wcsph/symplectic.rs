@@ -10,9 +10,9 @@
 //! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, sections 2 to 4.
 
 use super::energy;
-use super::fields::{CONSTANT, DENSITY, fields};
+use super::fields::{DENSITY, fields};
 use super::parameters::Parameters;
-use super::updates::{AddConstant, FixedPart};
+use super::updates::{AddConstant, BareFixedPart, FixedPart};
 use super::water::Water;
 use crate::executor::Executor;
 use crate::fault::Fault;
@@ -51,6 +51,23 @@ impl<A: Arithmetic, const D: usize> Symplectic<A, D> {
         exec.points(&AddConstant, &mut system.particles)?;
         self.water.dummy_densities(system, exec)
     }
+
+    /// Sorts the walls, and sums what dummies add to each other's density; whether there are any.
+    fn densities_among_dummies<E: Executor>(
+        &self,
+        system: &mut System<'_, A, D>,
+        exec: &E,
+    ) -> Result<bool, Fault> {
+        system.prepare_walls();
+        system.locate_walls(exec);
+        if !self.water.has_dummies(system) {
+            return Ok(false);
+        }
+        exec.points(&self.water.own(), &mut system.walls)?;
+        let of_walls = Sum::to_walls(Side::Walls, &[], DENSITY);
+        system.sum(exec, &self.water.density_pass(), of_walls)?;
+        Ok(true)
+    }
 }
 
 impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
@@ -68,30 +85,27 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         system: &mut System<'_, A, D>,
         exec: &E,
     ) -> Result<(), Fault> {
-        system.prepare_walls();
-        system.locate_walls(exec);
-        if !self.water.has_dummies(system) {
-            return Ok(());
+        if self.densities_among_dummies(system, exec)? {
+            exec.points(&FixedPart, &mut system.walls)?;
         }
-        exec.points(&self.water.own(), &mut system.walls)?;
-        let of_walls = Sum::to_walls(Side::Walls, &[], DENSITY);
-        system.sum(exec, &self.water.density_pass(), of_walls)?;
-        exec.points(&FixedPart, &mut system.walls)
+        Ok(())
     }
 
-    /// C_a ← ρ0 - Σ m W.
+    /// C_a ← ρ0 - Σ m W, and what was given.
     fn initialise<E: Executor>(
         &self,
         system: &mut System<'_, A, D>,
         exec: &E,
     ) -> Result<(), Fault> {
         system.clock.initialised = true;
-        system.walls.words_mut(CONSTANT).fill_with(Default::default);
-        self.place_walls(system, exec)?;
+        let has_dummies = self.densities_among_dummies(system, exec)?;
+        if has_dummies {
+            exec.points(&BareFixedPart, &mut system.walls)?;
+        }
         self.water.locate(system, exec);
         self.water.bare_densities(system, exec)?;
         exec.points(&self.water.constants(), &mut system.particles)?;
-        if self.water.has_dummies(system) {
+        if has_dummies {
             self.water.dummy_densities(system, exec)?;
             exec.points(&self.water.constants(), &mut system.walls)?;
             self.place_walls(system, exec)?;

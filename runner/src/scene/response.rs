@@ -9,7 +9,7 @@
 //! over all nodes but the one in the middle. The bulk energy and the penalty together are then as
 //! stiff as a bulk modulus of ρ0 c_0² ((dρ/d ln V)² + (c_p/c_0)² (dλ/d ln V)²).
 
-use crate::scene::LatticeKind;
+use super::words::LatticeKind;
 use loschmidt_core::kernel::WendlandC2;
 
 /// Derivatives of the sums by the logarithm of the volume.
@@ -31,7 +31,7 @@ impl LatticeResponse {
 
 /// Steps from a node to its neighbours, for one node in each unit of volume; none for a spiral,
 /// which is no lattice.
-fn steps(kind: LatticeKind) -> Option<(usize, [[f64; 3]; 3])> {
+pub(super) fn steps(kind: LatticeKind) -> Option<(usize, [[f64; 3]; 3])> {
     Some(match kind {
         LatticeKind::Square => (2, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0; 3]]),
         LatticeKind::Hexagonal => {
