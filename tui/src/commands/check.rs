@@ -252,9 +252,9 @@ fn helium(scene: &Scene, superfluid: &Superfluid) -> String {
 fn walls(scene: &Scene, line: &mut impl FnMut(&str, String)) {
     let wall = |region: &&Region| region.kind == RegionKind::Wall;
     for (n, region) in scene.regions.iter().filter(wall).enumerate() {
-        let rubs = match (region.smooth, region.velocity) {
+        let rubs = match (region.smooth, &region.velocity[..]) {
             (true, _) => "smooth".to_owned(),
-            (false, Some(Velocity::Uniform(v))) => {
+            (false, [Velocity::Uniform(v)]) => {
                 format!("a lid of {:.3} m/s", v[0].hypot(v[1]).hypot(v[2]))
             }
             (false, _) => "rough".to_owned(),
