@@ -195,6 +195,11 @@ impl Player {
     pub fn home_digest(&self) -> Digest {
         self.home_digest
     }
+    /// kg m/s of a quantum of Σ v (per m of depth in 2D).
+    #[must_use]
+    pub fn momentum_unit(&self) -> f64 {
+        self.home.scale.speed_quantum() * self.scene.particle_mass()
+    }
     /// Steps from home along physical time.
     #[must_use]
     pub fn position(&self) -> i64 {

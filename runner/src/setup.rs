@@ -6,6 +6,7 @@ mod reach;
 mod sense;
 mod solids;
 
+pub use crate::memory::{MemoryError, MemoryLimit, available_memory, bytes_for_people};
 pub use helium::{FlowSpeeds, flow_speeds, helium_parameters};
 pub use limits::{fixed_limits, force_limit};
 pub use reach::{Reach, enclosure, length_range, reach};
@@ -14,6 +15,7 @@ pub use solids::{fluid_parameters, solid_parameters};
 
 use crate::engine::simulate;
 use crate::isc;
+use crate::memory;
 use crate::model_list::for_each_model;
 use crate::own::{self, OwnModel};
 use crate::saved::ArithmeticKind;
@@ -323,53 +325,10 @@ fn saved_bytes(fields: &'static [Field], dimension: usize, fluid: u64, walls: u6
     8 * ((words(Side::Particles) + 1) * fluid + words(Side::Walls) * walls)
 }
 
-/// Bytes of memory that this machine can still give, where it can be told.
-#[must_use]
-pub fn available_memory() -> Option<u64> {
-    let mut system = sysinfo::System::new();
-    system.refresh_memory();
-    match system.available_memory() {
-        0 => None,
-        bytes => Some(bytes),
-    }
-}
-
-/// Bytes in the unit that suits them: 512 KiB, 29 MiB, 3.2 GiB.
-#[must_use]
-pub fn bytes_for_people(bytes: u64) -> String {
-    let mut value = bytes as f64;
-    for unit in ["bytes", "KiB", "MiB", "GiB", "TiB"] {
-        if value < 1024.0 {
-            let digits = usize::from(value < 10.0 && unit != "bytes");
-            return format!("{value:.digits$} {unit}");
-        }
-        value /= 1024.0;
-    }
-    format!("{value:.0} PiB")
-}
-
-/// A scene that needs more memory than there is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the scene needs about {} of memory and {} are available; choose a larger particle_spacing",
-    bytes_for_people(*needed),
-    bytes_for_people(*available)
-)]
-pub struct MemoryError {
-    /// Bytes.
-    pub needed: u64,
-    /// Bytes.
-    pub available: u64,
-}
-
-/// Compares the estimate with what the machine can give, before anything is allocated.
+/// Compares the estimate with what there is, before anything is allocated.
 ///
 /// # Errors
 /// The scene is too large.
 pub fn check_memory(scene: &Scene) -> Result<(), MemoryError> {
-    let needed = estimated_bytes(scene);
-    match available_memory() {
-        Some(available) if needed > available => Err(MemoryError { needed, available }),
-        _ => Ok(()),
-    }
+    memory::check(estimated_bytes(scene))
 }

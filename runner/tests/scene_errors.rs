@@ -202,3 +202,66 @@ fn nesting_without_end_is_refused_and_not_followed() {
         assert!(matches!(error, SceneError::Invalid(_)), "{shown}");
     }
 }
+
+/// The whole message is read: the text of a hundred thousand mistakes took half a minute.
+#[test]
+fn of_very_many_mistakes_the_first_twenty_are_told() {
+    const MANY: usize = 100_000;
+    let lines: String = (0..MANY).map(|n| format!("foo{n} = {n}\n")).collect();
+    let regions = "[[region]]\nkind = \"flud\"\n".repeat(MANY);
+    let member = "{ circle = { centre = [0, 0], radius = \"a\" } }, ";
+    let union = format!("shape.union = [{}]\n", member.repeat(MANY));
+    let head = "particle_spacing = 0.1\nturnaround = 1.0\nfluid.sound_speed = 10.0\n";
+    for (rest, first) in [
+        (lines, "unknown key `foo0`\n --> scene.toml:4:1\n"),
+        (regions, "`kind` cannot be \"flud\"\n --> scene.toml:5:8\n"),
+        (
+            format!("[[region]]\nkind = \"fluid\"\n{union}"),
+            "`radius`: expected a number in m, found a string\n --> scene.toml:6:54\n",
+        ),
+    ] {
+        let source = Source::Text {
+            name: "scene.toml".to_owned(),
+            text: format!("{head}{rest}"),
+        };
+        let message = load(&source, &[]).expect_err("mistakes").to_string();
+        assert!(message.starts_with(&format!("error: {first}")), "{message}");
+        assert_eq!(message.matches("error: ").count(), 20, "{message}");
+        assert!(message.ends_with("\n\nand more: the first 20 mistakes are told"));
+        assert!(message.lines().all(|line| line.chars().count() < 1000));
+    }
+}
+
+#[test]
+fn a_text_longer_than_any_scene_is_not_read() {
+    let path = std::env::temp_dir().join(format!("loschmidt-long-{}.toml", std::process::id()));
+    let file = fs::File::create(&path).expect("a file");
+    // A hole: nothing is written.
+    file.set_len(1 << 40).expect("a long file");
+    let error = load(&Source::Path(path.clone()), &[]).expect_err("too long");
+    fs::remove_file(&path).expect("removed");
+    let message = error.to_string();
+    assert!(message.contains("is longer than 16 MiB"), "{message}");
+}
+
+/// A hundred thousand regions took minutes.
+#[test]
+fn a_scene_of_very_many_regions_is_read() {
+    const MANY: usize = 100_000;
+    let region = |n: usize| {
+        let (x, end) = (0.2 * n as f64, 0.2 * (n + 1) as f64);
+        format!(
+            "[[region]]\nkind = \"fluid\"\n\
+             shape.rectangle = {{ min = [{x:.1}, 0.0], max = [{end:.1}, 1.0] }}\n"
+        )
+    };
+    let head = "particle_spacing = 0.1\nturnaround = 1.0\nfluid.sound_speed = 10.0\n";
+    let regions: String = (0..MANY).map(region).collect();
+    let source = Source::Text {
+        name: "scene.toml".to_owned(),
+        text: format!("{head}{regions}"),
+    };
+    let scene = load(&source, &[]).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(scene.regions.len(), MANY);
+    assert!(scene.time_step() > 0.0);
+}

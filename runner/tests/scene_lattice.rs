@@ -465,3 +465,39 @@ proptest! {
         prop_assert_eq!(scene.estimated_particles(), counts);
     }
 }
+
+/// Asked one by one, twenty thousand discs took minutes.
+#[test]
+fn a_union_of_very_many_shapes_is_filled() {
+    let disc = |n: usize| {
+        let (x, y) = (0.5 * (n % 200) as f64, 0.5 * (n / 200) as f64);
+        format!("{{ circle = {{ centre = [{x:?}, {y:?}], radius = 0.2 }} }}")
+    };
+    let union = |count: usize| {
+        let discs: Vec<String> = (0..count).map(disc).collect();
+        fluid(0.1, &format!("{{ union = [{}] }}", discs.join(", ")))
+    };
+    assert_eq!(union(20_000).fluid.len(), 20_000 * union(1).fluid.len());
+}
+
+#[test]
+fn fields_of_a_first_velocity_are_added() {
+    let with = |velocity: &str| {
+        let shape = "shape.circle = { centre = [0.5, 0], radius = 0.5 }";
+        let region = format!("[[region]]\nkind = \"fluid\"\n{shape}\nvelocity = {velocity}\n");
+        let state = with_regions(0.1, 2, &region).initial_state();
+        state.unwrap_or_else(|error| panic!("{error}"))
+    };
+    let turn = with("{ rotation = 2.0, centre = [0.5, 0] }");
+    let strain = with("{ linear = [[1, 0], [0, -1]], offset = [0.25, 0] }");
+    let all = with(
+        "{ linear = [[1, 0], [0, -1]], offset = [0.25, 0], uniform = [0, 3], rotation = 2.0, \
+         centre = [0.5, 0] }",
+    );
+    let parts = turn.fluid_velocity.iter().zip(&strain.fluid_velocity);
+    for (all, (turn, strain)) in all.fluid_velocity.iter().zip(parts) {
+        for (k, uniform) in [0.0, 3.0].into_iter().enumerate() {
+            assert_eq!(all[k], uniform + turn[k] + strain[k]);
+        }
+    }
+}

@@ -236,6 +236,18 @@ fn velocity(axes: usize) -> impl Strategy<Value = Option<Velocity>> {
     ]
 }
 
+/// No field, one, or two that are added.
+fn velocities(axes: usize) -> impl Strategy<Value = Vec<Velocity>> {
+    (velocity(axes), prop::option::of(point(axes))).prop_map(|(field, uniform)| match field {
+        Some(Velocity::Uniform(_)) | None => field.into_iter().collect(),
+        Some(other) => uniform
+            .map(Velocity::Uniform)
+            .into_iter()
+            .chain([other])
+            .collect(),
+    })
+}
+
 fn any_scene() -> impl Strategy<Value = Scene> {
     let dimension = prop_oneof![Just(Dimension::Two), Just(Dimension::Three)];
     dimension.prop_flat_map(|dimension| {
@@ -245,7 +257,7 @@ fn any_scene() -> impl Strategy<Value = Scene> {
             (0.01..2.0_f64).prop_map(StepRule::Cfl),
             (1e-6..1e-2_f64).prop_map(StepRule::Seconds)
         ];
-        let fluid = (shape(axes), velocity(axes));
+        let fluid = (shape(axes), velocities(axes));
         (
             (words, words, step, point(axes)),
             prop::collection::vec(fluid, 1..4),

@@ -146,6 +146,7 @@ pub fn assert_same_way_back(rows: &[Row]) {
             angular_momentum_x: -row.angular_momentum_x,
             angular_momentum_y: -row.angular_momentum_y,
             angular_momentum_z: -row.angular_momentum_z,
+            momentum: row.momentum.map(|p| p.map(|p| -p)),
             step: there.step,
             leg: there.leg,
             elapsed_s: there.elapsed_s,

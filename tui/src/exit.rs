@@ -2,6 +2,7 @@
 
 use loschmidt_runner::RunError;
 use loschmidt_runner::output::{OutputError, SnapshotError};
+use loschmidt_runner::plain::{quote, visible};
 use loschmidt_runner::scene::SceneError;
 use loschmidt_viewer::movie::MovieError;
 use std::io::Write;
@@ -20,7 +21,19 @@ pub const INTERRUPTED: u8 = 130;
 
 /// Prints a line on standard error; a reader that has gone away ends nothing.
 pub fn tell(line: &str) {
-    let _ = writeln!(std::io::stderr(), "{line}");
+    let _ = writeln!(std::io::stderr(), "{}", visible(line));
+}
+
+/// Prints what is wrong with the arguments, or the help that they ask for.
+pub fn refuse(refused: &clap::Error) -> ExitCode {
+    let text = refused.render().to_string();
+    // The colours of clap are only used where no argument could add to them.
+    if visible(&text) == text || !refused.use_stderr() {
+        let _ = refused.print();
+    } else {
+        tell(text.trim_end());
+    }
+    ExitCode::from(u8::try_from(refused.exit_code()).unwrap_or(USAGE))
 }
 
 /// What goes to standard error, and the code to leave with.
@@ -70,7 +83,9 @@ impl From<RunError> for Failure {
             RunError::Scene(error) => error.into(),
             RunError::Output(error) => {
                 let code = match error {
-                    OutputError::NotARun { .. } | OutputError::Snapshot(_) => USAGE,
+                    OutputError::NotARun { .. }
+                    | OutputError::Changed { .. }
+                    | OutputError::Snapshot(_) => USAGE,
                     OutputError::Exists(_)
                     | OutputError::NotReplaced { .. }
                     | OutputError::InUse(_)
@@ -119,6 +134,7 @@ impl From<MovieError> for Failure {
             | MovieError::FfmpegMissing(_)
             | MovieError::Picture { .. }
             | MovieError::Unfinished(_)
+            | MovieError::AtWork { .. }
             | MovieError::Watched(_)
             | MovieError::FewFrames { .. }
             | MovieError::NoFrames(_) => USAGE,
@@ -126,16 +142,5 @@ impl From<MovieError> for Failure {
             MovieError::Interrupted { .. } => INTERRUPTED,
         };
         Self::new(code, format!("error: {error}"))
-    }
-}
-
-/// A path as a shell takes it.
-pub fn quote(path: &std::path::Path) -> String {
-    let text = path.display().to_string();
-    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+:@,=".contains(c);
-    if text.chars().all(plain) {
-        text
-    } else {
-        format!("'{}'", text.replace('\'', r"'\''"))
     }
 }

@@ -15,7 +15,10 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let arguments = cli::ProgramArguments::parse();
+    let arguments = match cli::ProgramArguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(refused) => return exit::refuse(&refused),
+    };
     match commands::execute(arguments) {
         Ok(code) => code,
         Err(failure) => failure.report(),

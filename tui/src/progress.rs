@@ -5,27 +5,42 @@ use crate::exit::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use loschmidt_runner::run::Progress;
 use loschmidt_runner::time_unit::TimeUnit;
-use loschmidt_runner::{Run, setup};
+use loschmidt_runner::{Run, SavedState, setup};
 use loschmidt_viewer::movie;
+use loschmidt_viewer::session::count;
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 /// Between two plain lines at least.
 const PAUSE: Duration = Duration::from_secs(10);
 
-/// Says what is about to be run, and where its files go.
-pub fn announce(run: &Run) {
+/// Says what is about to be run, how long it will take, and where its files go. `set`: what the scene
+/// was changed by.
+pub fn announce(run: &mut Run, set: &[String]) {
+    let seconds = run.expected_seconds();
     let player = run.player();
-    let path = run
-        .path()
-        .map(|path| format!(", written to {}", path.display()));
+    let changes = match set {
+        [] => String::new(),
+        set => format!(" with {}", set.join(" ")),
+    };
     tell(&format!(
-        "{}: {} particles, {} steps, {} on {} thread(s){}",
+        "{}{changes}: {} particles, {} steps, {} on {} thread(s)",
         player.scene().name,
-        player.particles(),
-        run.plan().total(),
+        count(player.particles()),
+        count(run.plan().total()),
         player.options().executor.name(),
         player.threads(),
+    ));
+    let time = seconds.map(|seconds| format!("about {}; ", duration(seconds)));
+    let path = run.path().map(|path| {
+        let frames = run.plan().frames_until(run.plan().total()).count() as u64;
+        let bytes = frames * frame_bytes(player.home());
+        let size = setup::bytes_for_people(bytes);
+        format!("about {size} of frames, written to {}", path.display())
+    });
+    tell(&format!(
+        "{}{}",
+        time.unwrap_or_default(),
         path.unwrap_or_default()
     ));
     let dt = player.scene().time_step();
@@ -36,6 +51,14 @@ pub fn announce(run: &Run) {
             ));
         }
     }
+}
+
+/// Bytes of a particle in the CSV and VTP files of a frame, about.
+const BYTES_PER_PARTICLE: u64 = 250;
+
+/// Bytes of a frame of these particles, about.
+pub fn frame_bytes(state: &SavedState) -> u64 {
+    BYTES_PER_PARTICLE * (state.id.len() + state.walls) as u64
 }
 
 /// Shows how far a run has come.
@@ -193,10 +216,11 @@ impl Pictures {
         let now = Instant::now();
         let (start, first) = *self.began.get_or_insert((now, progress.step));
         let left = match progress.step.saturating_sub(first) {
-            0 => "?".to_owned(),
+            0 => None,
             done => {
                 let pace = (now - start).as_secs_f64() / done as f64;
-                duration(pace * progress.steps.saturating_sub(progress.step) as f64)
+                let steps = progress.steps.saturating_sub(progress.step);
+                Some(duration(pace * steps as f64))
             }
         };
         if std::io::stderr().is_terminal() {
@@ -204,17 +228,19 @@ impl Pictures {
             let bar = self.bar.get_or_insert_with(|| {
                 let target = ProgressDrawTarget::stderr_with_hz(10);
                 let bar = ProgressBar::with_draw_target(Some(total), target);
-                let template = "{wide_bar} picture {pos}/{len}  {msg} left";
+                let template = "{wide_bar} picture {pos}/{len}  {msg}";
                 if let Ok(style) = ProgressStyle::with_template(template) {
                     bar.set_style(style.progress_chars("█▉▊▋▌▍▎▏ "));
                 }
                 bar
             });
-            bar.set_message(left);
+            bar.set_message(left.map_or_else(String::new, |left| format!("{left} left")));
             bar.set_position(progress.done as u64);
             return;
         }
         let finished = progress.done == progress.total;
+        // Before the first steps nobody knows how long it takes.
+        let Some(left) = left else { return };
         if finished || self.last.is_none_or(|last| now - last >= PAUSE) {
             self.last = Some(now);
             let (done, total) = (progress.done, progress.total);

@@ -8,9 +8,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::exit::INTERRUPTED;
 
-/// A terminal that is closed is one of them where there is such a signal.
+/// A terminal that is closed is one of them where there is such a signal, and SIGQUIT, which would
+/// end the program without giving the terminal back.
 #[cfg(unix)]
-const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
+const SIGNALS: [i32; 4] = {
+    use signal_hook::consts::{SIGHUP, SIGQUIT};
+    [SIGINT, SIGTERM, SIGHUP, SIGQUIT]
+};
 #[cfg(not(unix))]
 const SIGNALS: [i32; 2] = [SIGINT, SIGTERM];
 

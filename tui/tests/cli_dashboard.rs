@@ -114,7 +114,7 @@ fn a_finished_run_is_opened_at_its_end() {
 
 #[test]
 fn a_signal_gives_the_terminal_back_and_keeps_the_state() {
-    for signal in ["TERM", "INT", "HUP"] {
+    for signal in ["TERM", "INT", "HUP", "QUIT"] {
         let place = Workplace::new();
         let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (100, 30));
         terminal.wait_for("step 3");
@@ -204,4 +204,55 @@ fn a_scene_with_a_mistake_is_refused_before_the_screen_is_taken() {
         (Some(2), 1),
         "{error}"
     );
+}
+
+#[test]
+fn a_stopped_dashboard_gives_the_terminal_back_and_takes_it_again() {
+    let place = Workplace::new();
+    let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (120, 40));
+    terminal.wait_for("step 3");
+    terminal.signal("TSTP");
+    terminal.wait_until_given_back();
+    terminal.signal("CONT");
+    terminal.wait_for("forward");
+    terminal.type_keys(" ");
+    terminal.wait_for("paused");
+    terminal.type_keys("q");
+    assert_eq!(terminal.ended_and_restored(), 0);
+}
+
+#[test]
+fn a_state_that_cannot_be_kept_here_is_kept_elsewhere() {
+    let place = Workplace::new();
+    // A file in the place of the folder: also one who may write everything cannot.
+    std::fs::write(place.join("runs"), "in the way").expect("a file");
+    std::fs::create_dir(place.join("elsewhere")).expect("a directory");
+    let elsewhere = place.join("elsewhere").to_str().expect("UTF-8").to_owned();
+    let environment = [("TMPDIR", elsewhere.as_str())];
+    let mut terminal = start(place.path(), &SMALL, &environment, (200, 40));
+    terminal.wait_for("step 3");
+    terminal.type_keys("q");
+    assert_eq!(terminal.ended_and_restored(), 0);
+    let kept = "elsewhere/runs/dam-break-1";
+    assert!(terminal.text().contains(kept), "{}", terminal.text());
+    assert_eq!(place.manifest(kept)["status"], "watched");
+}
+
+#[test]
+fn a_signal_while_a_scene_is_set_up_ends_the_dashboard() {
+    let place = Workplace::new();
+    // The positions of 31,000 particles, which take half a minute.
+    let call = [
+        "tui",
+        "dam-break",
+        "--set=particle_spacing=0.008",
+        "--set=density_correction=isc",
+    ];
+    let mut terminal = start(place.path(), &call, &TRUE_COLOURS, (100, 30));
+    terminal.wait_for("dam-break");
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let began = std::time::Instant::now();
+    terminal.signal("TERM");
+    assert_eq!(terminal.ended_and_restored(), 130);
+    assert!(began.elapsed() < std::time::Duration::from_secs(10));
 }

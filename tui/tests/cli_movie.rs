@@ -189,3 +189,42 @@ fn an_interrupted_movie_goes_on_with_the_command_it_prints() {
     place.call(&words).with_code(0);
     assert!(files_below(&place.join("whole")) == files_below(&out));
 }
+
+#[cfg(unix)]
+#[test]
+fn a_broken_picture_of_an_interrupted_movie_is_drawn_anew() {
+    use crate::program::{end, signal, wait_for};
+    let place = Workplace::new();
+    place
+        .call(&with(&["--seconds=2", "--out=whole", "--quiet"]))
+        .with_code(0);
+    let again = with(&["--seconds=2", "--out=broken"]);
+    let child = place.start(&again);
+    wait_for("picture", || place.join("broken/frame-00020.png").is_file());
+    signal(&child, "INT");
+    end(child).with_code(130);
+    let picture = place.join("broken/frame-00007.png");
+    let bytes = fs::read(&picture).expect("a picture");
+    fs::write(&picture, &bytes[..bytes.len() / 2]).expect("a file");
+    let ended = place.call(&again).with_code(0);
+    assert!(ended.stderr.contains("; 7 are there\n"), "{ended:#?}");
+    assert!(files_below(&place.join("whole")) == files_below(&place.join("broken")));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_movie_of_a_run_at_work_says_so() {
+    use crate::program::{end, signal, wait_for_lines};
+    let place = Workplace::new();
+    let child = place.start(&["run", "dam-break", "--set=particle_spacing=0.04", "--out=a"]);
+    wait_for_lines(&place.join("a"), 20);
+    place.call(&["movie", "a"]).refused(
+        2,
+        &["the run in a is at work at this moment", "of 10000 steps"],
+    );
+    signal(&child, "KILL");
+    end(child);
+    place
+        .call(&["movie", "a"])
+        .refused(2, &["has not finished", "loschmidt resume a"]);
+}

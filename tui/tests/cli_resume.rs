@@ -243,3 +243,114 @@ fn a_run_of_a_version_with_other_comments_goes_on() {
     }
     place.call(&["resume", "a", "--quiet"]).with_code(0);
 }
+
+#[test]
+fn a_changed_number_of_the_series_is_named() {
+    let place = Workplace::new();
+    broken(&place, "a", &[]);
+    let series = place.join("a/series.csv");
+    let whole = fs::read_to_string(&series).expect("a series");
+    let lines: Vec<&str> = whole.lines().collect();
+    let columns: Vec<&str> = lines[0].split(',').collect();
+    for (column, other) in [
+        ("entropy", "0.5"),
+        ("total_J", "1e3"),
+        ("step", "8"),
+        ("front_m", "7"),
+        ("momentum_y_kg_m_per_s", "12"),
+    ] {
+        let place_of = columns.iter().position(|name| *name == column);
+        for line in [2, 100, 600] {
+            let mut numbers: Vec<&str> = lines[line - 1].split(',').collect();
+            numbers[place_of.expect("a column")] = other;
+            let mut changed = lines.clone();
+            let numbers = numbers.join(",");
+            changed[line - 1] = &numbers;
+            fs::write(&series, changed.join("\n") + "\n").expect("written");
+            let row = line - 2;
+            let words = format!("the `{column}` of row {row}, in line {line}, is another");
+            assert_refused(&place, "a", &["a/series.csv was changed since", &words]);
+        }
+    }
+    fs::write(&series, whole).expect("written");
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+}
+
+#[test]
+fn a_forged_snapshot_is_told_from_the_one_in_the_manifest() {
+    let place = Workplace::new();
+    broken(&place, "a", &[]);
+    for name in ["home", "turnaround", "latest"] {
+        let path = place.join("a/snapshots").join(format!("{name}.snapshot"));
+        let whole = fs::read(&path).expect("a snapshot");
+        let mut snapshot = Snapshot::read(&path).expect("a snapshot");
+        snapshot.state.fields[0].words[17] ^= 1;
+        snapshot
+            .write(fs::File::create(&path).expect("a file"))
+            .expect("written");
+        let file = format!("a/snapshots/{name}.snapshot was changed since");
+        assert_refused(
+            &place,
+            "a",
+            &[&file, "has the digest ", "the manifest says "],
+        );
+        fs::write(&path, whole).expect("written");
+    }
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+}
+
+#[test]
+fn missing_frames_are_named() {
+    let place = Workplace::new();
+    broken(&place, "a", &["--set", "output.frames=20"]);
+    let frame = place.join("a/frames/particles-000003.vtp");
+    let whole = fs::read(&frame).expect("a frame");
+    fs::remove_file(&frame).expect("removed");
+    let words = ["frames/particles-000003.vtp", "missing; put them back"];
+    assert_refused(&place, "a", &words);
+    fs::write(&frame, whole).expect("written");
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+    fs::remove_file(place.join("a/frames/particles-000003.csv")).expect("removed");
+    let words = ["frames/particles-000003.csv", "missing; put them back"];
+    place.call(&["movie", "a"]).refused(2, &words);
+}
+
+/// A series of an earlier version has no momentum in kg m/s, and the manifest no checksums.
+#[test]
+fn a_run_of_a_version_without_checksums_goes_on() {
+    let place = Workplace::new();
+    broken(&place, "a", &[]);
+    let series = place.join("a/series.csv");
+    let whole = fs::read_to_string(&series).expect("a series");
+    let cut = |line: &str| line.rsplitn(4, ',').last().expect("columns").to_owned() + "\n";
+    fs::write(&series, whole.lines().map(cut).collect::<String>()).expect("written");
+    let manifest = place.join("a/manifest.json");
+    let mut values = place.manifest("a");
+    values.as_object_mut().expect("an object").remove("series");
+    fs::write(&manifest, values.to_string()).expect("written");
+    place.call(&["resume", "a", "--quiet"]).with_code(0);
+    let resumed = fs::read_to_string(&series).expect("a series");
+    assert!(resumed.starts_with(&whole), "the earlier rows are others");
+}
+
+/// A path that is not UTF-8 is printed so that a shell takes it.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_command_to_resume_can_be_pasted_whatever_the_path() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let place = Workplace::new();
+    let out = OsStr::from_bytes(b"a\xff b");
+    let mut run = crate::program::loschmidt(place.path(), &["run", "--quiet", "--out"]);
+    let child = run.arg(out).args(SET).spawn().expect("the program");
+    wait_for_lines(&place.path().join(out), 100);
+    signal(&child, "INT");
+    let ended = end(child).refused(130, &["loschmidt resume $'a\\xff b'\n"]);
+    let command = ended.stderr.lines().last().expect("a command").trim();
+    let command = command.replacen("loschmidt", env!("CARGO_BIN_EXE_loschmidt"), 1);
+    let resumed = std::process::Command::new("bash")
+        .current_dir(place.path())
+        .args(["-c", &format!("{command} --quiet")])
+        .status();
+    assert!(resumed.expect("a shell").success());
+}

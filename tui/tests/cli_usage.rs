@@ -1,6 +1,6 @@
 //! The other commands, and everything that is refused: exit code 2 and nothing on standard output.
 
-use crate::program::Workplace;
+use crate::program::{Ended, Workplace};
 use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
@@ -365,6 +365,57 @@ fn a_scene_far_too_large_is_refused_before_anything_is_allocated() {
     assert!(!place.join("runs").exists());
 }
 
+/// Scenes, names and arguments that would repaint the screen.
+#[test]
+fn what_a_terminal_would_obey_is_shown_instead() {
+    let place = Workplace::new();
+    let wild = "\u{1b}]0;title\u{7}\u{202e}";
+    let file = format!("{wild}.toml");
+    fs::write(place.join(&file), "'a\u{202e}b' = 1\n").expect("a file");
+    fs::write(place.join("esc.toml"), format!("a = 1 # {wild}\n")).expect("a file");
+    let set = format!("--set={wild}=1");
+    let calls: [&[&str]; 7] = [
+        &["check", &file],
+        &["check", "esc.toml"],
+        &["check", wild],
+        &["check", "dam-break", &set],
+        &["resume", wild],
+        &["digest", wild],
+        &["run", "dam-break", "--executor", wild],
+    ];
+    for call in calls {
+        let ended = place.call(call).refused(2, &[]);
+        let obeyed = |c: char| (c.is_control() && c != '\n') || c == '\u{202e}';
+        assert!(!ended.stderr.contains(obeyed), "{call:?}: {ended:#?}");
+    }
+}
+
+/// What ended with an abort and a backtrace.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_of_the_address_space_is_told_in_words() {
+    let place = Workplace::new();
+    let program = env!("CARGO_BIN_EXE_loschmidt");
+    for (command, limit) in [("check", 600_000), ("run", 600_000), ("check", 150_000)] {
+        let call = format!(
+            "ulimit -v {limit}; exec {program} {command} dam-break --set particle_spacing=0.001"
+        );
+        let ended = std::process::Command::new("sh")
+            .current_dir(place.path())
+            .args(["-c", &call])
+            .output();
+        let ended: Ended = ended.expect("a shell").into();
+        ended.refused(
+            2,
+            &[
+                "the scene needs about",
+                "limit of its address space, `ulimit -v`",
+            ],
+        );
+        assert!(!place.join("runs").exists());
+    }
+}
+
 #[cfg(target_os = "linux")]
 mod interrupted {
     use super::*;
@@ -386,7 +437,15 @@ mod interrupted {
         wait_for_lines(&place.join("a"), 2);
         let memory = peak(child.id());
         signal(&child, "INT");
-        let ended = end(child).refused(130, &["/80000, ", " left; ", "loschmidt resume a"]);
+        let words = [
+            "dam-break: 80,000 particles, 80,000 steps, fast on ",
+            "\nabout ",
+            "; about 431 MiB of frames, written to a\n",
+            "/80000, ",
+            " left; ",
+            "loschmidt resume a",
+        ];
+        let ended = end(child).refused(130, &words);
         println!("{} MiB; {}", memory >> 20, ended.stderr);
         assert!(memory < 2 << 30);
         assert_eq!(place.manifest("a")["steps_planned"], 80_000);
@@ -396,11 +455,19 @@ mod interrupted {
     fn without_arguments_it_is_the_small_dam_break() {
         let place = Workplace::new();
         let child = place.start(&[]);
-        let run = place.join("runs/dam-break-1");
+        let run = place.join("runs/dam-break-small-1");
         wait_for("a manifest", || run.join("manifest.json").exists());
         signal(&child, "TERM");
-        end(child).refused(130, &["loschmidt resume runs/dam-break-1"]);
-        let manifest = place.manifest("runs/dam-break-1");
+        end(child).refused(
+            130,
+            &[
+                "dam-break-small with particle_spacing=0.02 name=dam-break-small: 5,000 particles, \
+                 20,000 steps, ",
+                " MiB of frames, written to runs/dam-break-small-1",
+                "loschmidt resume runs/dam-break-small-1",
+            ],
+        );
+        let manifest = place.manifest("runs/dam-break-small-1");
         assert_eq!(manifest["steps_planned"], 20_000);
         assert_eq!(
             manifest["digest"]["initial"],

@@ -287,9 +287,9 @@ fn fastest_wall(scene: &Scene, frame: &Frame) -> f64 {
         .regions
         .iter()
         .filter(|region| region.kind == RegionKind::Wall);
-    let speeds = walls.filter_map(|region| {
-        let velocity = region.velocity?;
-        let at = |x: &[f64; 3]| length(&velocity.at(*x));
+    let moving = walls.filter(|region| !region.velocity.is_empty());
+    let speeds = moving.filter_map(|region| {
+        let at = |x: &[f64; 3]| length(&region.velocity_at(*x));
         frame.wall_position.iter().map(at).reduce(f64::max)
     });
     speeds.fold(0.0, f64::max)

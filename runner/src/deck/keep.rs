@@ -1,7 +1,7 @@
 //! Leaving a state behind, to be opened again.
 
 use super::messages::Meddling;
-use crate::output::{Manifest, OutputError, RunDirectory, RunStatus, Snapshot};
+use crate::output::{Checksums, Manifest, OutputError, RunDirectory, RunStatus, Snapshot};
 use crate::player::{Arrow, Player};
 use crate::run::{Digests, Plan, Row, Seen, scene_hash};
 use std::path::{Path, PathBuf};
@@ -60,6 +60,7 @@ impl Keeper {
                 turnaround: None,
                 last: player.digest().to_string(),
             },
+            series: Some(Checksums::of(rows)),
             result: None,
         };
         directory.write_manifest(&manifest)

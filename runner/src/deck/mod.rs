@@ -124,6 +124,12 @@ impl Deck {
         }
     }
 
+    /// Leaves the thread alone, which ends after the piece that it is at, or with the program: the
+    /// set-up of a scene may take minutes.
+    pub fn leave(mut self) {
+        self.thread = None;
+    }
+
     /// The last picture has been drawn: the next one may come.
     pub fn ready(&self) {
         self.ready.store(true, Ordering::Release);

@@ -1,10 +1,10 @@
 //! What a deck plays: a scene from its start, or an earlier run from where it was left.
 
 use super::messages::Meddling;
-use crate::output::{OutputError, RunDirectory, Snapshot};
+use crate::output::{OutputError, RunDirectory};
 use crate::player::{Arrow, Player};
-use crate::run::{Row, RunError, belongs};
-use crate::saved::{ArithmeticKind, SavedState};
+use crate::run::{Left, Row, RunError};
+use crate::saved::SavedState;
 use crate::scene::{self, Scene, SceneError, Source};
 use crate::setup;
 use crate::simulation::Options;
@@ -103,36 +103,23 @@ impl Opening {
 
     fn of_run(path: &Path, options: Options) -> Result<Self, OpeningError> {
         let manifest = RunDirectory::read_manifest(path)?;
-        let scene = scene::load(&Source::Path(RunDirectory::scene_path(path)), &[])?;
-        let read = |name: &str| -> Result<Snapshot, OpeningError> {
-            let file = RunDirectory::snapshot_path(path, name);
-            let snapshot = Snapshot::read(&file).map_err(OutputError::from)?;
-            if belongs(&snapshot, path, &scene) {
-                Ok(snapshot)
-            } else {
-                Err(RunError::ForeignSnapshot(file).into())
-            }
-        };
-        let (home, latest) = (read("home")?, read("latest")?);
-        let rows = RunDirectory::read_rows(path, latest.state.step)?;
-        let arithmetic = if manifest.arithmetic == ArithmeticKind::Float.name() {
-            ArithmeticKind::Float
-        } else {
-            ArithmeticKind::Fixed
-        };
+        let left = Left::read(path, manifest)?;
+        let (home, latest) = (left.any_snapshot("home")?, left.any_snapshot("latest")?);
+        left.compare(&home, None, &latest)?;
+        let rows = RunDirectory::read_rows(path, &left.manifest, latest.state.step)?;
         Ok(Self {
-            scene,
             options: Options {
-                arithmetic,
+                arithmetic: left.arithmetic(),
                 ..options
             },
+            scene: left.scene,
             recorded: Some(Box::new(Recorded {
                 home: home.state,
                 state: latest.state,
                 position: latest.position,
                 arrow: latest.arrow,
                 rows,
-                meddling: manifest.meddling,
+                meddling: left.manifest.meddling,
             })),
             pace: None,
         })

@@ -1,10 +1,11 @@
 //! The directory of a run: created without overwriting, written file by file.
 
+use super::error::OutputError;
 use super::manifest::Manifest;
 use super::particles_csv::CsvWriter;
 use super::pvd::Collection;
 use super::series::{self, SeriesWriter};
-use super::snapshot::{Snapshot, SnapshotError};
+use super::snapshot::Snapshot;
 use super::vtp::VtpWriter;
 use super::{COLLECTION, frame_path};
 use crate::frame::Frame;
@@ -12,53 +13,6 @@ use crate::run::Row;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use thiserror::Error;
-
-/// Something could not be written or read back.
-#[derive(Debug, Error)]
-pub enum OutputError {
-    /// The directory is there already.
-    #[error(
-        "{} exists already; choose another --out, or replace the run in it with --force",
-        .0.display()
-    )]
-    Exists(PathBuf),
-    /// `--force` replaces runs, and this is something else.
-    #[error(
-        "{} {what}, not a run that --force could replace; choose another --out",
-        path.display()
-    )]
-    NotReplaced {
-        /// What is there.
-        path: PathBuf,
-        /// What it is.
-        what: &'static str,
-    },
-    /// Another process is at work in it.
-    #[error("{} is in use by a run at this moment", .0.display())]
-    InUse(PathBuf),
-    /// The file system said no.
-    #[error("cannot {what} {}: {source}", path.display())]
-    Io {
-        /// What was tried.
-        what: &'static str,
-        /// With which file.
-        path: PathBuf,
-        /// Why not.
-        source: std::io::Error,
-    },
-    /// Not a directory that a run left.
-    #[error("{} is not the directory of a run: {why}", path.display())]
-    NotARun {
-        /// The directory.
-        path: PathBuf,
-        /// What is missing or wrong.
-        why: String,
-    },
-    /// A snapshot of the run cannot be read.
-    #[error(transparent)]
-    Snapshot(#[from] SnapshotError),
-}
 
 /// An open run directory.
 pub struct RunDirectory {
@@ -81,10 +35,17 @@ const LOCK: &str = ".lock";
 /// The first of `runs/<scene>-1`, `-2`, … that does not exist.
 #[must_use]
 pub fn free_directory(scene: &str) -> PathBuf {
+    free_directory_in(Path::new(""), scene)
+}
+
+/// The same in another folder than the present one.
+#[must_use]
+pub fn free_directory_in(folder: &Path, scene: &str) -> PathBuf {
+    let runs = folder.join("runs");
     (1u64..)
-        .map(|n| Path::new("runs").join(format!("{scene}-{n}")))
+        .map(|n| runs.join(format!("{scene}-{n}")))
         .find(|path| fs::symlink_metadata(path).is_err())
-        .unwrap_or_else(|| Path::new("runs").join(scene))
+        .unwrap_or_else(|| runs.join(scene))
 }
 
 /// `--force` replaces a run, or fills a directory that holds nothing of a run's names; anything
@@ -204,14 +165,28 @@ impl RunDirectory {
     /// The rows of an earlier run up to `step`.
     ///
     /// # Errors
-    /// Not a run, or not readable.
-    pub fn read_rows(path: &Path, step: u64) -> Result<Vec<Row>, OutputError> {
+    /// Not a run, or not readable; a number is not the one whose checksum is in the manifest.
+    pub fn read_rows(path: &Path, manifest: &Manifest, step: u64) -> Result<Vec<Row>, OutputError> {
+        let not_a_run = |why| OutputError::NotARun {
+            path: path.to_owned(),
+            why,
+        };
         let mut rows = File::open(path.join(SERIES))
             .and_then(series::read)
-            .map_err(|e| OutputError::NotARun {
-                path: path.to_owned(),
-                why: format!("{SERIES} cannot be read ({e})"),
-            })?;
+            .map_err(|e| not_a_run(format!("{SERIES} cannot be read ({e})")))?;
+        if let Some(checksums) = &manifest.series {
+            if rows.len() < checksums.rows {
+                let steps = manifest.steps;
+                let why = format!("{SERIES} does not hold the rows up to step {steps}");
+                return Err(not_a_run(why));
+            }
+            if let Some(changed) = checksums.changed(&rows) {
+                return Err(OutputError::Changed {
+                    path: path.join(SERIES),
+                    what: changed.to_string(),
+                });
+            }
+        }
         rows.retain(|row| row.step <= step);
         Ok(rows)
     }
@@ -239,6 +214,41 @@ impl RunDirectory {
             frames: Collection::new(),
             csv: CsvWriter::new(),
             vtp: VtpWriter::new(),
+        })
+    }
+
+    /// Whether the first `count` frames of a run are there, in these formats.
+    ///
+    /// # Errors
+    /// Names the first file that is not.
+    pub fn has_frames(path: &Path, count: usize, formats: &[&str]) -> Result<(), OutputError> {
+        let files = (0..count as u64).flat_map(|n| {
+            let formats = formats.iter();
+            formats.map(move |format| frame_path(n, format))
+        });
+        let missing: Vec<String> = files.filter(|file| !path.join(file).is_file()).collect();
+        let Some(first) = missing.first() else {
+            return Ok(());
+        };
+        let others = match missing.len() - 1 {
+            0 => String::new(),
+            others => format!(" and {others} other files of frames"),
+        };
+        Err(OutputError::NotARun {
+            path: path.to_owned(),
+            why: format!("{first}{others} were written, and are missing; put them back"),
+        })
+    }
+
+    /// Whether a run is at work in the directory at this moment.
+    #[must_use]
+    pub fn is_in_use(path: &Path) -> bool {
+        // A file system without locks cannot tell.
+        File::open(path.join(LOCK)).is_ok_and(|lock| {
+            matches!(
+                lock.try_lock_shared(),
+                Err(std::fs::TryLockError::WouldBlock)
+            )
         })
     }
 

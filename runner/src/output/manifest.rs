@@ -1,5 +1,6 @@
 //! `manifest.json`: what a run directory is, for people and for `resume`.
 
+use super::checksums::Checksums;
 use crate::deck::Meddling;
 use crate::run::{Digests, Outcome, Seen};
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,9 @@ pub struct Manifest {
     pub seen: Seen,
     /// The digests known so far.
     pub digest: Digests,
+    /// Checksums of the series so far; none by an earlier version.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub series: Option<Checksums>,
     /// The result of a finished run; written, never read back.
     #[serde(skip_deserializing, skip_serializing_if = "Option::is_none", default)]
     pub result: Option<Outcome>,

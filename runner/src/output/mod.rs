@@ -20,7 +20,9 @@
 //! velocity is written as 0, the other two as NaN, which plotting programs leave out of their
 //! ranges. Its id is that of [`crate::frame::Frame::wall_ids`].
 
+mod checksums;
 mod directory;
+mod error;
 mod manifest;
 pub mod particles_csv;
 pub mod pvd;
@@ -28,12 +30,17 @@ pub mod series;
 pub mod snapshot;
 pub mod vtp;
 
-pub use directory::{OutputError, RunDirectory, free_directory};
+pub use checksums::{ChangedNumber, Checksums};
+pub use directory::{RunDirectory, free_directory, free_directory_in};
+pub use error::OutputError;
 pub use manifest::{Manifest, RunStatus};
 pub use snapshot::{Snapshot, SnapshotError};
 
 /// Path of the collection, relative to the directory of the run.
 pub const COLLECTION: &str = "particles.pvd";
+
+/// The formats of a frame, by the endings of their files.
+pub const FRAME_FORMATS: [&str; 2] = ["csv", "vtp"];
 
 /// Size in bytes of the pieces in which files are written.
 const PIECE: usize = 64 * 1024;

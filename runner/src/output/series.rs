@@ -1,11 +1,13 @@
 //! `series.csv`: one line per [`Row`], the units in the header.
 //!
 //! The energies of the model stand between the times and their sum, each as `KIND_J`; what else a
-//! model says of the whole stands at the end. Numbers are written in the shortest form that reads
-//! back to the same bits.
+//! model says of the whole comes then, and at the end the linear momentum in kg m/s, which series of
+//! earlier versions do not have. Numbers are written in the shortest form that reads back to the same
+//! bits.
 
 use crate::run::Row;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::io::{self, Read, Write};
 
 /// One number of a line.
@@ -82,6 +84,44 @@ const TAIL: [SeriesColumn; 13] = [
     column!("front_m", front_m, Real),
 ];
 
+/// The linear momentum, at the end where it is known.
+const MOMENTUM: [&str; 3] = [
+    "momentum_x_kg_m_per_s",
+    "momentum_y_kg_m_per_s",
+    "momentum_z_kg_m_per_s",
+];
+
+/// The numbers of a row, column by column.
+fn columns(row: &Row) -> impl Iterator<Item = (Cow<'_, str>, Number)> {
+    let fixed = |column: &'static SeriesColumn| move |row| (column.0.into(), column.1(row));
+    let head = HEAD.iter().map(move |column| fixed(column)(row));
+    let energies = row.energies.iter();
+    let energies = energies.map(|(kind, value)| (heading(kind).into(), Number::Real(*value)));
+    let tail = TAIL.iter().map(move |column| fixed(column)(row));
+    let totals = row.totals.iter();
+    let totals = totals.map(|(name, value)| ((&**name).into(), Number::Real(*value)));
+    let momentum = MOMENTUM.into_iter().zip(row.momentum.into_iter().flatten());
+    let momentum = momentum.map(|(name, value)| (name.into(), Number::Real(value)));
+    head.chain(energies)
+        .chain(tail)
+        .chain(totals)
+        .chain(momentum)
+}
+
+/// The bits of every number of a row, with the name of its column.
+pub(super) fn numbers(row: &Row) -> Vec<(String, u128)> {
+    let bits = |number| match number {
+        Number::Whole(n) => u128::from(n),
+        Number::Signed(n) => n as u128,
+        Number::Sum(n) => n as u128,
+        Number::Real(x) => u128::from(x.to_bits()),
+        Number::Maybe(Some(x)) => 1 << 64 | u128::from(x.to_bits()),
+        Number::Maybe(None) => 0,
+    };
+    let named = |(name, number): (Cow<'_, str>, Number)| (name.into_owned(), bits(number));
+    columns(row).map(named).collect()
+}
+
 /// Writes rows; the header comes before the first.
 pub struct SeriesWriter<W: Write> {
     csv: csv::Writer<W>,
@@ -103,19 +143,10 @@ impl<W: Write> SeriesWriter<W> {
     /// The writer's.
     pub fn write(&mut self, row: &Row) -> io::Result<()> {
         if !std::mem::replace(&mut self.begun, true) {
-            let kinds = row.energies.iter().map(|(kind, _)| heading(kind));
-            let names = HEAD.iter().map(|column| column.0.to_owned());
-            let rest = TAIL.iter().map(|column| column.0.to_owned());
-            let totals = row.totals.iter().map(|(name, _)| name.to_string());
-            let header: Vec<String> = names.chain(kinds).chain(rest).chain(totals).collect();
+            let header: Vec<_> = columns(row).map(|(name, _)| name.into_owned()).collect();
             self.csv.write_record(header)?;
         }
-        let energies = row.energies.iter().map(|(_, value)| Number::Real(*value));
-        let head = HEAD.iter().map(|column| column.1(row));
-        let tail = TAIL.iter().map(|column| column.1(row));
-        let totals = row.totals.iter().map(|(_, value)| Number::Real(*value));
-        let all = head.chain(energies).chain(tail).chain(totals);
-        let numbers: Vec<Number> = all.collect();
+        let numbers: Vec<Number> = columns(row).map(|(_, number)| number).collect();
         self.csv.serialize(numbers).map_err(io::Error::from)?;
         self.csv.flush()
     }
@@ -154,6 +185,8 @@ struct VariableColumns {
     kinds: Vec<String>,
     /// Totals.
     totals: Vec<String>,
+    /// Whether the momentum stands at the end.
+    momentum: bool,
 }
 
 impl VariableColumns {
@@ -173,14 +206,18 @@ impl VariableColumns {
         if !fixed(head, &HEAD) || !fixed(rest, &TAIL) {
             return Err(bad("the header"));
         }
+        let totals = &rest[TAIL.len()..];
+        let without = totals.strip_suffix(&MOMENTUM);
         let kind = |name: &&str| Some(name.strip_suffix("_J")?.to_owned());
         let kinds: Option<Vec<String>> = head[HEAD.len()..].iter().map(kind).collect();
         Ok(Self {
             kinds: kinds.ok_or_else(|| bad("the header"))?,
-            totals: rest[TAIL.len()..]
+            totals: without
+                .unwrap_or(totals)
                 .iter()
                 .map(|name| (*name).to_owned())
                 .collect(),
+            momentum: without.is_some(),
         })
     }
 }
@@ -209,6 +246,14 @@ fn row(record: &csv::StringRecord, names: &VariableColumns) -> Result<Row, Strin
         let value = texts.next().and_then(|text| text.parse().ok());
         let value = value.ok_or_else(|| name.clone())?;
         row.totals.push((name.clone().into(), value));
+    }
+    if names.momentum {
+        let mut momentum = [0.0; 3];
+        for (name, value) in MOMENTUM.iter().zip(&mut momentum) {
+            let number = texts.next().and_then(|text| text.parse().ok());
+            *value = number.ok_or_else(|| (*name).to_owned())?;
+        }
+        row.momentum = Some(momentum);
     }
     Ok(row)
 }

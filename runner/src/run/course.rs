@@ -2,22 +2,22 @@
 //! when it is stopped or fails.
 
 use super::error::RunError;
+use super::estimate::expected_seconds;
+use super::left::{Left, scene_hash};
 use super::outcome::{Cost, Digests, Outcome};
 use super::plan::Plan;
 use super::row::Row;
 use super::seen::Seen;
 use crate::enclosure::Enclosure;
 use crate::frame::Frame;
-use crate::output::{Manifest, OutputError, RunDirectory, RunStatus, Snapshot};
+use crate::output::{Checksums, Manifest, OutputError, RunDirectory, RunStatus, Snapshot};
 use crate::player::{Arrow, Player};
 use crate::pool::Rayon;
 use crate::ranged_fault::RangedFault;
-use crate::saved::ArithmeticKind;
-use crate::scene::{Scene, Source};
+use crate::scene::Scene;
 use crate::setup;
 use crate::simulation::{BuildError, Options};
 use loschmidt_core::Fault;
-use loschmidt_core::digest::hash;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -129,46 +129,30 @@ impl Run {
                 });
             }
         }
-        let scene = crate::scene::load(&Source::Path(RunDirectory::scene_path(path)), &[])?;
-        let arithmetic = if manifest.arithmetic == ArithmeticKind::Float.name() {
-            ArithmeticKind::Float
-        } else {
-            ArithmeticKind::Fixed
-        };
+        let left = Left::read(path, manifest)?;
         let options = Options {
-            arithmetic,
-            ..choose(&manifest)
+            arithmetic: left.arithmetic(),
+            ..choose(&left.manifest)
         };
-        let (mut player, walls) = new_player(scene, options)?;
+        let (mut player, walls) = new_player(left.scene.clone(), options)?;
         let plan = Plan::of(player.scene());
-        let read = |name: &str, belongs: &dyn Fn(&Snapshot) -> bool| -> Result<_, RunError> {
-            let file = RunDirectory::snapshot_path(path, name);
-            let snapshot = Snapshot::read(&file).map_err(OutputError::from)?;
-            if !self::belongs(&snapshot, path, player.scene()) {
-                return Err(RunError::ForeignSnapshot(file));
-            }
-            if !plan.passes(&snapshot) || !belongs(&snapshot) {
-                return Err(RunError::MisplacedSnapshot {
-                    path: file,
-                    step: snapshot.state.step,
-                });
-            }
-            Ok(snapshot)
-        };
-        let home = read("home", &|home| home.state.step == 0)?;
-        let latest = read("latest", &|_| true)?;
+        let home = left.snapshot("home", |home| home.state.step == 0)?;
+        let latest = left.snapshot("latest", |_| true)?;
         let turned = plan.back > 0 && latest.state.step >= plan.out;
         let turnaround = turned
-            .then(|| read("turnaround", &|turn| turn.state.step == plan.out))
+            .then(|| left.snapshot("turnaround", |turn| turn.state.step == plan.out))
             .transpose()?;
-        player.restore_home(home.state)?;
+        player.restore_home(home.state.clone())?;
         player.restore(&latest.state, latest.position, latest.arrow)?;
         let step = latest.state.step;
+        left.compare(&home, turnaround.as_ref(), &latest)?;
         let mut run = Self::new(player, walls, None, started);
-        run.seen = manifest.seen;
-        run.rows = RunDirectory::read_rows(path, step)?;
-        run.check_rows(path)?;
+        run.seen = left.manifest.seen;
+        let rows = left.rows(step)?.into_iter();
+        // Earlier versions wrote the momentum in quanta alone.
+        run.rows = rows.map(|row| row.with_momentum(&run.player)).collect();
         run.turnaround_digest = turnaround.map(|snapshot| snapshot.digest().to_string());
+        left.has_frames(step)?;
         run.directory = Some(RunDirectory::reopen(path, &run.rows)?);
         run.good = Good::Stored;
         run.note_frames(step)?;
@@ -194,22 +178,6 @@ impl Run {
             started,
             loop_time: Duration::ZERO,
             loop_steps: 0,
-        }
-    }
-
-    /// The rows that the earlier part must have left: a series that was tampered with is found
-    /// here.
-    fn check_rows(&self, path: &Path) -> Result<(), RunError> {
-        let step = self.player.steps_taken();
-        let due = (0..=step).filter(|&s| self.plan.due(s).row);
-        if self.rows.iter().map(|row| row.step).eq(due) {
-            Ok(())
-        } else {
-            Err(OutputError::NotARun {
-                path: path.to_owned(),
-                why: format!("series.csv does not hold the rows up to step {step}"),
-            }
-            .into())
         }
     }
 
@@ -281,6 +249,11 @@ impl Run {
             self.observe(&mut observe);
         }
         self.finish()
+    }
+
+    /// How long the run will take, s, where that can be found out; see [`expected_seconds`].
+    pub fn expected_seconds(&mut self) -> Option<f64> {
+        expected_seconds(&mut self.player, &self.plan)
     }
 
     fn observe(&self, observe: &mut impl FnMut(&Progress<'_>)) {
@@ -395,6 +368,7 @@ impl Run {
             meddling: Vec::new(),
             failure,
             seen: self.seen,
+            series: Some(Checksums::of(&self.rows)),
             digest: Digests {
                 initial: self.player.home_digest().to_string(),
                 turnaround: self.turnaround_digest.clone(),
@@ -492,16 +466,4 @@ fn new_player(scene: Scene, options: Options) -> Result<(Player, Option<Enclosur
     let initial = threads.install(|| scene.initial_state())?;
     let walls = setup::enclosure(&scene, &initial);
     Ok((Player::new(scene, initial, options)?, walls))
-}
-
-/// Whether a snapshot is that of the scene in this run directory. The text that was written there is
-/// what counts: the next version of this program may print the same scene with other comments.
-pub(crate) fn belongs(snapshot: &Snapshot, directory: &Path, scene: &Scene) -> bool {
-    let written = std::fs::read(RunDirectory::scene_path(directory));
-    snapshot.scene == scene_hash(scene) || written.is_ok_and(|text| snapshot.scene == hash(&text))
-}
-
-/// Hash of the resolved scene, which ties snapshots to it.
-pub(crate) fn scene_hash(scene: &Scene) -> [u8; 16] {
-    hash(scene.to_toml().as_bytes())
 }

@@ -5,14 +5,16 @@
 
 mod course;
 mod error;
+mod estimate;
+mod left;
 mod outcome;
 mod plan;
 mod row;
 mod seen;
 
 pub use course::{Progress, Run};
-pub(crate) use course::{belongs, scene_hash};
 pub use error::RunError;
+pub(crate) use left::{Left, scene_hash};
 pub use outcome::{
     Angular, AngularMomentum, Cost, Digests, EnergyBalance, Entropy, Momentum, Outcome,
     TotalOverTime,

@@ -266,7 +266,7 @@ impl Outcome {
         let turn = rows.iter().rev().find(|row| row.leg == 1)?;
         let two_way = scene.turnaround.is_some();
         let (all, held) = (player.home().id.len() as u64, player.held_walls());
-        let unit = player.home().scale.speed_quantum() * scene.particle_mass();
+        let unit = player.momentum_unit();
         let threads = player.threads();
         let work = all as f64 * cost.steps as f64;
         Some(Self {

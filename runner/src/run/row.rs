@@ -52,6 +52,8 @@ pub struct Row {
     pub front_m: f64,
     /// What else the model says of the whole, with the units in the names, in the model's order.
     pub totals: Vec<(Cow<'static, str>, f64)>,
+    /// Linear momentum, kg m/s (per m of depth in 2D); none in a series of an earlier version.
+    pub momentum: Option<[f64; 3]>,
 }
 
 impl Row {
@@ -96,6 +98,20 @@ impl Row {
                 .iter()
                 .map(|(measure, value)| (heading(&measure).into(), value))
                 .collect(),
+            momentum: None,
+        }
+        .with_momentum(player)
+    }
+
+    /// The row with the momentum in kg m/s, from that in quanta.
+    #[must_use]
+    pub(crate) fn with_momentum(self, player: &Player) -> Self {
+        let quanta = self.momentum_quanta();
+        let unit = player.momentum_unit();
+        Self {
+            // No zero with a sign.
+            momentum: Some(quanta.map(|p| p as f64 * unit + 0.0)),
+            ..self
         }
     }
 
@@ -116,6 +132,8 @@ impl Row {
         ] {
             *moment = -*moment;
         }
+        // No zero with a sign.
+        self.momentum = self.momentum.map(|p| p.map(|p| 0.0 - p));
         self
     }
 

@@ -26,6 +26,9 @@ pub(super) fn build(spec: &SceneSpec) -> Result<Scene, SceneError> {
     let top = Here::top(&spec.root, TOP);
     let dimension = dimension(&spec.root).unwrap_or(Dimension::Two);
     let mut builder = Builder::new(spec, dimension, family(&spec.root), check(spec));
+    if builder.has_enough() {
+        return builder.give_up();
+    }
     builder.require_tables(top);
     require_movers(&mut builder, top);
     let mut scene = Scene::read(&mut builder, top);
@@ -132,6 +135,7 @@ fn bodies<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &mut Scene) {
             entry.key,
             format!("allowed: at most {MAX_PARTS} regions and {MAX_BODIES} bodies"),
         );
+        return;
     }
     for (number, node) in elements(&entry.node).iter().enumerate() {
         let first = numbers.iter().position(|body| *body == numbers[number]);
@@ -274,7 +278,7 @@ fn friction<'a>(builder: &mut Builder<'a>, top: Here<'a>, scene: &Scene) {
         let wall = region.kind == RegionKind::Wall;
         for (name, given) in [
             ("conduction", region.conduction.is_some()),
-            ("velocity", wall && region.velocity.is_some()),
+            ("velocity", wall && !region.velocity.is_empty()),
         ] {
             let entry = as_table(node).and_then(|table| table.get(name));
             refused.extend(entry.filter(|_| given).map(|entry| (name, entry.key)));

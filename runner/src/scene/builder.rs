@@ -3,7 +3,7 @@
 //! Values that [`check`](super::check) has already refused are replaced by NaN or another
 //! stand-in, which no rule complains about, so that one mistake gives one message.
 
-use super::error::{Problem, ProblemKind, Problems, SceneError};
+use super::error::{MOST_FOUND, Problem, ProblemKind, Problems, SceneError};
 use super::nearest::nearest;
 use super::schema::{Family, Form, IfAbsent, SceneKey, TableRules, ValueType};
 use super::spec::{Entry, SceneSpec, Span, WrittenTable, WrittenValue};
@@ -122,35 +122,49 @@ impl<'a> Builder<'a> {
         if self.problems.is_empty() {
             Ok(value)
         } else {
-            Err(SceneError::Invalid(Problems::new(self.problems)))
+            self.give_up()
         }
+    }
+
+    /// Every problem found so far.
+    pub fn give_up<T>(self) -> Result<T, SceneError> {
+        Err(SceneError::Invalid(Problems::new(self.problems)))
+    }
+
+    /// Whether so much is wrong that nothing more is looked for.
+    pub fn has_enough(&self) -> bool {
+        self.problems.len() >= MOST_FOUND
+    }
+
+    fn report(
+        &mut self,
+        kind: ProblemKind,
+        message: String,
+        span: Option<Span>,
+        help: Vec<String>,
+    ) {
+        if self.has_enough() {
+            return;
+        }
+        self.problems.push(match span {
+            Some(span) => self.spec.problem(kind, message, span, help),
+            None => self.spec.problem_of_the_file(message, help),
+        });
     }
 
     /// Reports values that exclude each other.
     pub fn conflict(&mut self, message: String, span: Span, help: String) {
-        self.problems.push(
-            self.spec
-                .problem(ProblemKind::Conflict, message, span, vec![help]),
-        );
+        self.report(ProblemKind::Conflict, message, Some(span), vec![help]);
     }
 
     /// Reports a value that is not allowed.
     pub fn out_of_range(&mut self, message: String, span: Span, help: String) {
-        self.problems.push(
-            self.spec
-                .problem(ProblemKind::OutOfRange, message, span, vec![help]),
-        );
+        self.report(ProblemKind::OutOfRange, message, Some(span), vec![help]);
     }
 
     /// Reports that a table lacks something.
     pub fn missing(&mut self, here: Here, message: String, help: Vec<String>) {
-        let problem = match here.span {
-            Some(span) => self
-                .spec
-                .problem(ProblemKind::MissingKey, message, span, help),
-            None => self.spec.problem_of_the_file(message, help),
-        };
-        self.problems.push(problem);
+        self.report(ProblemKind::MissingKey, message, here.span, help);
     }
 
     /// The entry `name`; its absence is reported when the schema requires it. A table that the

@@ -1,7 +1,7 @@
 //! Checks what was written against the [schema](super::schema): every key is known, every
 //! value has its key's type and range. All mistakes are collected.
 
-use super::error::{Problem, ProblemKind};
+use super::error::{MOST_FOUND, Problem, ProblemKind};
 use super::model::Model;
 use super::nearest::nearest;
 use super::region_keys::REGION;
@@ -90,12 +90,18 @@ struct Checker<'a> {
 
 impl Checker<'_> {
     fn report(&mut self, kind: ProblemKind, message: String, span: Span, help: Vec<String>) {
+        if self.problems.len() >= MOST_FOUND {
+            return;
+        }
         self.problems
             .push(self.spec.problem(kind, message, span, help));
     }
 
     fn table(&mut self, table: &WrittenTable, rules: &'static TableRules) {
         for entry in &table.entries {
+            if self.problems.len() >= MOST_FOUND {
+                return;
+            }
             let Some(key) = rules.key(&entry.name) else {
                 self.problems
                     .push(unknown_key(self.spec, rules, &entry.name, entry.key));
@@ -181,6 +187,9 @@ impl Checker<'_> {
             (ValueType::Table(rules), WrittenValue::Table(table)) => self.table(table, rules),
             (ValueType::Tables(rules), WrittenValue::List(list)) => {
                 for element in list {
+                    if self.problems.len() >= MOST_FOUND {
+                        return;
+                    }
                     match &element.value {
                         WrittenValue::Table(table) => self.table(table, rules),
                         _ => self.wrong_type(key, element, "a table", Vec::new()),

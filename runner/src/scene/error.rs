@@ -60,6 +60,17 @@ pub enum SceneError {
         /// The first line that is not UTF-8, counted from 1.
         line: usize,
     },
+    /// The file is longer than any scene.
+    #[error(
+        "error: the scene file `{path}` is longer than {limit} MiB\nhelp: shapes of many parts can \
+         be drawn by fewer, larger ones"
+    )]
+    TooLong {
+        /// The path as it was given.
+        path: String,
+        /// Mebibytes that are allowed.
+        limit: u64,
+    },
     /// The regions hold no particle that a model moves.
     #[error(
         "error: scene `{scene}` has no {kind} particle at a particle spacing of \
@@ -297,36 +308,10 @@ pub struct Line {
     pub column: usize,
     /// Number of characters pointed at, at least 1.
     pub width: usize,
-    /// The whole line.
+    /// The whole line, or so much of it around the place as fits on a screen.
     pub text: String,
-}
-
-impl Line {
-    /// The line and column of `start..end` in `text`; a span over several lines is cut
-    /// at the end of its first.
-    pub(super) fn locate(text: &str, start: usize, end: usize, numbered: bool) -> Self {
-        let start = floor_to_character(text, start);
-        let end = floor_to_character(text, end).max(start);
-        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
-        let line_end = text[start..]
-            .find('\n')
-            .map_or(text.len(), |newline| start + newline);
-        let pointed = &text[start..end.min(line_end)];
-        Self {
-            number: numbered.then(|| 1 + text[..start].matches('\n').count()),
-            column: 1 + text[line_start..start].chars().count(),
-            width: pointed.trim_end().chars().count().max(1),
-            text: text[line_start..line_end].trim_end().to_owned(),
-        }
-    }
-}
-
-/// The last character boundary at or before `index`.
-fn floor_to_character(text: &str, index: usize) -> usize {
-    (0..=index.min(text.len()))
-        .rev()
-        .find(|&i| text.is_char_boundary(i))
-        .unwrap_or(0)
+    /// Characters of the line before `text`.
+    pub(super) before: usize,
 }
 
 impl fmt::Display for Place {
@@ -345,7 +330,7 @@ impl fmt::Display for Place {
             .text
             .chars()
             .chain(std::iter::repeat(' '))
-            .take(line.column - 1)
+            .take(line.column - 1 - line.before)
             .map(|c| if c == '\t' { '\t' } else { ' ' })
             .collect();
         writeln!(f, "{gutter} |")?;
@@ -366,18 +351,35 @@ impl fmt::Display for Problem {
 
 /// The mistakes of one scene in the order of their places; there is at least one.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problems(Vec<Problem>);
+pub struct Problems {
+    /// Those that are told.
+    told: Vec<Problem>,
+    /// How many others were found.
+    others: usize,
+}
+
+/// So many mistakes are told.
+const MOST_TOLD: usize = 20;
+
+/// After so many mistakes no more are looked for: a reader of the messages has enough, and a text
+/// that is no scene at all is not taken apart line by line.
+pub(super) const MOST_FOUND: usize = 100;
 
 impl Problems {
-    /// Sorts the mistakes by place.
+    /// Sorts the mistakes by place, and keeps the first.
     pub(super) fn new(mut problems: Vec<Problem>) -> Self {
         problems.sort_by_key(|problem| problem.place.order);
-        Self(problems)
+        let others = problems.len().saturating_sub(MOST_TOLD);
+        problems.truncate(MOST_TOLD);
+        Self {
+            told: problems,
+            others,
+        }
     }
 
-    /// The mistakes in the order of their places.
+    /// The mistakes that are told, in the order of their places.
     pub fn iter(&self) -> std::slice::Iter<'_, Problem> {
-        self.0.iter()
+        self.told.iter()
     }
 }
 
@@ -392,11 +394,17 @@ impl<'a> IntoIterator for &'a Problems {
 
 impl fmt::Display for Problems {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, problem) in self.0.iter().enumerate() {
+        for (index, problem) in self.told.iter().enumerate() {
             if index > 0 {
                 write!(f, "\n\n")?;
             }
             write!(f, "{problem}")?;
+        }
+        let (told, others) = (self.told.len(), self.others);
+        if told + others >= MOST_FOUND {
+            write!(f, "\n\nand more: the first {told} mistakes are told")?;
+        } else if others > 0 {
+            write!(f, "\n\nand {others} more mistakes")?;
         }
         Ok(())
     }

@@ -36,7 +36,7 @@ pub(super) fn counterflow<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Opti
     let random = entry.name == "random";
     let all: [(&str, &[&str]); 2] = [("length", &["random"]), ("seed", &["random"])];
     let needed: &[&str] = if random { &["length"] } else { &[] };
-    companions(builder, here, &entry.name, &all, needed);
+    companions(builder, here, &[(&entry.name, needed)], &all);
     Some(if random {
         Counterflow::Random {
             speed: builder.number(here, "random"),
@@ -53,7 +53,12 @@ pub(super) fn entropy<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<F
     let entry = only_one(builder, here, "the entropy", |name| fields.contains(&name))?;
     let wave = entry.name == "wave";
     let needed: &[&str] = if wave { &["length"] } else { &[] };
-    companions(builder, here, &entry.name, &[("length", &["wave"])], needed);
+    companions(
+        builder,
+        here,
+        &[(&entry.name, needed)],
+        &[("length", &["wave"])],
+    );
     Some(if wave {
         FirstEntropy::Wave {
             amplitude: builder.number(here, "wave"),

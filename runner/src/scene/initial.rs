@@ -209,20 +209,16 @@ impl Scene {
     /// Gives the fluid its first velocities, where it is.
     fn set_velocities(&self, state: &mut InitialState, placed: &[(usize, RegionKind, usize)]) {
         state.fluid_velocity = vec![[0.0; 3]; state.fluid.len()];
-        for &(number, kind, start) in placed {
-            if !self.is_movable(kind) {
-                continue;
-            }
-            if kind == RegionKind::Wall {
-                // What walls pretend is set by the model.
-                state.fluid_velocity[start..].fill([0.0; 3]);
-                continue;
-            }
-            let field = self.regions[number].velocity;
-            let places = state.fluid[start..].iter();
-            // What belongs to later regions is overwritten by them.
-            for (v, x) in state.fluid_velocity[start..].iter_mut().zip(places) {
-                *v = field.map_or([0.0; 3], |field| field.at(*x));
+        let movable = placed.iter().filter(|(_, kind, _)| self.is_movable(*kind));
+        let ends = movable.clone().skip(1).map(|(_, _, start)| *start);
+        let ends = ends.chain([state.fluid.len()]);
+        for (&(number, kind, start), end) in movable.zip(ends) {
+            // What walls pretend is set by the model.
+            if kind != RegionKind::Wall {
+                let velocities = state.fluid_velocity[start..end].iter_mut();
+                for (v, x) in velocities.zip(&state.fluid[start..end]) {
+                    *v = self.regions[number].velocity_at(*x);
+                }
             }
         }
     }

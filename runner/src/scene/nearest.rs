@@ -5,6 +5,10 @@ pub(super) fn nearest<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
+    // Longer than any word that is known: no slip of the pen, and slow to compare.
+    if word.len() > 100 {
+        return None;
+    }
     let lower = word.to_lowercase();
     let allowed = (word.chars().count() / 3).max(1);
     candidates

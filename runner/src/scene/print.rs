@@ -38,7 +38,7 @@ pub(super) fn print_region(page: &mut Page, region: &Region) {
     let wall = region.kind == RegionKind::Wall;
     let moves = page.is_of(viscous::FAMILY) || page.is_of(superfluid::FAMILY);
     if (region.kind.is_of_the_model() && !region.held) || (wall && moves) {
-        print_velocity(page, region.velocity);
+        print_velocity(page, &region.velocity);
     }
     if page.is_of(superfluid::FAMILY) && wall {
         let smooth = Some(region.smooth.to_string());
@@ -130,8 +130,12 @@ const VELOCITY_KEYS: [&str; 15] = [
 ];
 
 /// Prints every key of a velocity that exists in the scene's dimension.
-fn print_velocity(page: &mut Page, velocity: Option<Velocity>) {
-    let given = velocity.map_or(Vec::new(), |velocity| velocity_values(page, velocity));
+fn print_velocity(page: &mut Page, velocity: &[Velocity]) {
+    let fields = velocity.iter();
+    // Fields that turn have one centre, which the first of them says.
+    let given: Vec<_> = fields
+        .flat_map(|field| velocity_values(page, *field))
+        .collect();
     for name in VELOCITY_KEYS {
         let key = VELOCITY.key(name);
         if let Some(key) = key.filter(|key| page.may_have(key)) {

@@ -18,9 +18,10 @@ pub struct Region {
     /// Arrangement of the particles of a fluid region; a wall has `None`, since it
     /// continues the lattice of the first fluid region.
     pub lattice: Option<LatticeKind>,
-    /// First velocity; `None` is at rest. Of a wall, how it slides or turns, in scenes of a viscous
-    /// fluid, or the velocity with which it rubs, in those of a superfluid.
-    pub velocity: Option<Velocity>,
+    /// First velocity, the sum of these fields; none is at rest. Of a wall, how it slides or turns, in
+    /// scenes of a viscous fluid, or the velocity with which it rubs, in those of a superfluid: one
+    /// field at most.
+    pub velocity: Vec<Velocity>,
     /// First counterflow of a superfluid; `None` is none.
     pub counterflow: Option<Counterflow>,
     /// First entropy of a superfluid; `None` is that of the reference temperature.
@@ -74,13 +75,22 @@ impl Region {
         )
     }
 
+    /// First velocity at `x`, m/s: the fields are added in their order.
+    #[must_use]
+    pub fn velocity_at(&self, x: Vector3) -> Vector3 {
+        let mut fields = self.velocity.iter().map(|field| field.at(x));
+        // Nothing is added to a single field: its zeros keep their signs.
+        let first = fields.next().unwrap_or([0.0; 3]);
+        fields.fold(first, |sum, u| std::array::from_fn(|k| sum[k] + u[k]))
+    }
+
     /// How a wall moves; others stand still.
     pub(super) fn motion(&self) -> Motion {
-        match (self.kind, self.velocity) {
-            (RegionKind::Wall, Some(Velocity::Uniform(velocity))) => Motion::Slides(velocity),
-            (RegionKind::Wall, Some(Velocity::Rotation { omega, centre })) => Motion::Turns {
-                rate: omega,
-                centre,
+        match (self.kind, &self.velocity[..]) {
+            (RegionKind::Wall, [Velocity::Uniform(velocity)]) => Motion::Slides(*velocity),
+            (RegionKind::Wall, [Velocity::Rotation { omega, centre }]) => Motion::Turns {
+                rate: *omega,
+                centre: *centre,
             },
             _ => Motion::Still,
         }

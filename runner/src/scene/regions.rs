@@ -2,7 +2,7 @@
 
 use super::builder::{Builder, Here};
 use super::declare::Keys;
-use super::exclusive::{companions, only_one};
+use super::exclusive::only_one;
 use super::helium::{counterflow, entropy, refuse_beside_walls};
 use super::page::Page;
 use super::print::print_region;
@@ -14,7 +14,8 @@ use super::region_keys::{
 use super::schema::{Family, SceneKey};
 use super::shape::Shape;
 use super::spec::{Entry, WrittenTable, WrittenValue};
-use super::values::{as_table, elements, number, numbers};
+use super::values::{as_table, elements, numbers};
+use super::velocity::velocity;
 use super::wcsph;
 use super::words::{ChoiceWord, Dimension, LatticeKind, RegionKind};
 use super::{solid, superfluid, viscous};
@@ -92,16 +93,12 @@ fn refuse_moving_clamp<'a>(builder: &mut Builder<'a>, here: Here<'a>, held: bool
 }
 
 /// Reports a wall whose velocity is not that of a rigid wall.
-fn refuse_shapeless_motion<'a>(
-    builder: &mut Builder<'a>,
-    here: Here<'a>,
-    velocity: Option<Velocity>,
-) {
+fn refuse_shapeless_motion<'a>(builder: &mut Builder<'a>, here: Here<'a>, velocity: &[Velocity]) {
     let turns = !builder.is_of(superfluid::FAMILY);
     let rigid = match velocity {
-        None | Some(Velocity::Uniform(_)) => true,
-        Some(Velocity::Rotation { .. }) => turns,
-        Some(_) => false,
+        [] | [Velocity::Uniform(_)] => true,
+        [Velocity::Rotation { .. }] => turns,
+        _ => false,
     };
     let (message, help) = if turns {
         (
@@ -172,9 +169,9 @@ fn region<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Region {
     let lattice = lattice(builder, here);
     let velocity = builder
         .inner(here, "velocity", &VELOCITY)
-        .and_then(|inner| velocity(builder, inner));
+        .map_or_else(Vec::new, |inner| velocity(builder, inner));
     if kind == RegionKind::Wall {
-        refuse_shapeless_motion(builder, here, velocity);
+        refuse_shapeless_motion(builder, here, &velocity);
     }
     let counterflow = builder
         .inner(here, "counterflow", &COUNTERFLOW)
@@ -237,65 +234,6 @@ fn lattice<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> LatticeKind {
         builder.conflict(message, entry.node.span, allowed.to_owned());
     }
     lattice
-}
-
-fn velocity<'a>(builder: &mut Builder<'a>, here: Here<'a>) -> Option<Velocity> {
-    let fields = [
-        "uniform", "rotation", "gresho", "kepler", "bending", "twist", "linear",
-    ];
-    let entry = only_one(builder, here, "the velocity", |name| fields.contains(&name))?;
-    let all: [(&str, &[&str]); 8] = [
-        ("centre", &["rotation", "gresho", "kepler"]),
-        ("radius", &["gresho"]),
-        ("offset", &["linear"]),
-        ("wave_number", &["bending"]),
-        ("a1", &["bending"]),
-        ("a2", &["bending"]),
-        ("start", &["bending"]),
-        ("height", &["twist"]),
-    ];
-    let needed: &[&str] = match entry.name.as_str() {
-        "bending" => &["wave_number", "a1", "a2"],
-        "twist" => &["height"],
-        _ => &[],
-    };
-    companions(builder, here, &entry.name, &all, needed);
-    Some(match entry.name.as_str() {
-        "uniform" => Velocity::Uniform(numbers(&entry.node)),
-        "rotation" => Velocity::Rotation {
-            omega: match (builder.dimension, number(&entry.node)) {
-                (Dimension::Two, Some(omega)) => [0.0, 0.0, omega],
-                _ => numbers(&entry.node),
-            },
-            centre: builder.vector(here, "centre"),
-        },
-        "gresho" => Velocity::Gresho {
-            peak: builder.number(here, "gresho"),
-            radius: builder.number(here, "radius"),
-            centre: builder.vector(here, "centre"),
-        },
-        "kepler" => Velocity::Kepler {
-            strength: builder.number(here, "kepler"),
-            centre: builder.vector(here, "centre"),
-        },
-        "bending" => Velocity::Bending {
-            peak: builder.number(here, "bending"),
-            wave_number: builder.number(here, "wave_number"),
-            shape: ["a1", "a2"].map(|name| builder.number(here, name)),
-            start: builder.number(here, "start"),
-        },
-        "twist" => Velocity::Twist {
-            rate: builder.number(here, "twist"),
-            height: builder.number(here, "height"),
-        },
-        _ => {
-            let rows = elements(&entry.node);
-            Velocity::Linear {
-                matrix: std::array::from_fn(|i| rows.get(i).map_or([0.0; 3], numbers)),
-                offset: builder.vector(here, "offset"),
-            }
-        }
-    })
 }
 
 /// Reads the shape in a table that holds exactly one.

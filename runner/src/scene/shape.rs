@@ -77,6 +77,21 @@ impl Shape {
         }
     }
 
+    /// What the layers of the shape are wrapped around.
+    pub(super) fn cores(&self) -> Vec<&Self> {
+        match self {
+            Self::Union(shapes) | Self::Difference(shapes) | Self::Intersection(shapes) => {
+                shapes.iter().flat_map(Self::cores).collect()
+            }
+            Self::Layer { around, .. } => {
+                let mut cores = around.cores();
+                cores.push(around);
+                cores
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// The depth, in spacings, of the layer with the least, where the shape has one.
     pub(super) fn thinnest_layer(&self) -> Option<f64> {
         match self {

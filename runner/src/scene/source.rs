@@ -1,7 +1,7 @@
 //! Where the text of a scene comes from: a file, the catalogue, or a string.
 
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::catalogue::{self, catalogue};
@@ -112,13 +112,18 @@ pub(super) fn is_name_character(c: char) -> bool {
     c.is_alphanumeric() || matches!(c, '-' | '_' | '.')
 }
 
+/// Bytes of a scene file at most: what is read of it takes some seventy times as many.
+const LONGEST: u64 = 16 << 20;
+
 fn read_file(path: &Path) -> Result<String, SceneError> {
     let shown = path.display().to_string();
     // Asked before opening: reading a folder fails with a different error on each system.
     if path.is_dir() {
         return Err(SceneError::Directory { path: shown });
     }
-    let bytes = fs::read(path).map_err(|error| match error.kind() {
+    let mut bytes = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes));
+    read.map_err(|error| match error.kind() {
         ErrorKind::NotFound => SceneError::NotFound {
             path: shown.clone(),
         },
@@ -127,6 +132,12 @@ fn read_file(path: &Path) -> Result<String, SceneError> {
             reason: error,
         },
     })?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(SceneError::TooLong {
+            path: shown,
+            limit: LONGEST >> 20,
+        });
+    }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let line = 1 + error.as_bytes()[..valid]

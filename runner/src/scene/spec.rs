@@ -5,8 +5,9 @@
 
 use toml_edit::{Document, Item, TableLike, TomlError};
 
-use super::error::{Line, Place, Problem, ProblemKind, Problems, SceneError};
+use super::error::{Place, Problem, ProblemKind, Problems, SceneError};
 use super::source::SourceText;
+use super::text::Text;
 
 /// A piece of one of the texts of a [`SceneSpec`]: the file is text 0, the overrides follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,13 +80,6 @@ impl WrittenTable {
     }
 }
 
-/// One of the texts a scene is written in.
-#[derive(Clone, Debug)]
-struct Text {
-    name: String,
-    text: String,
-}
-
 /// A scene as it was written, overrides included.
 #[derive(Clone, Debug)]
 pub(super) struct SceneSpec {
@@ -103,10 +97,7 @@ impl SceneSpec {
     /// [`SceneError::Invalid`] with one problem when the text is not TOML.
     pub fn parse(source: SourceText) -> Result<Self, SceneError> {
         let mut spec = Self {
-            texts: vec![Text {
-                name: source.name,
-                text: source.text,
-            }],
+            texts: vec![Text::new(source.name, source.text)],
             stem: source.stem,
             root: WrittenTable::default(),
         };
@@ -123,10 +114,8 @@ impl SceneSpec {
 
     /// Adds the text of an override and returns its number.
     pub fn add_override(&mut self, text: &str) -> usize {
-        self.texts.push(Text {
-            name: "--set".to_owned(),
-            text: text.to_owned(),
-        });
+        self.texts
+            .push(Text::new("--set".to_owned(), text.to_owned()));
         self.texts.len() - 1
     }
 
@@ -173,7 +162,7 @@ impl SceneSpec {
         help: Vec<String>,
     ) -> Problem {
         let text = &self.texts[span.text];
-        let line = Line::locate(&text.text, span.start, span.end, !span.is_override());
+        let line = text.locate(span.start, span.end, !span.is_override());
         let place = Place {
             file: text.name.clone(),
             line: Some(line),

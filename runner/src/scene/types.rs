@@ -17,6 +17,7 @@ use super::wcsph::{Fluid, WallPotential, Water};
 use super::words::{Dimension, Integrator, Overlap};
 use crate::time_unit::TimeUnit;
 use loschmidt_core::schemes::solid::Material;
+use std::collections::HashMap;
 
 keys! {
     /// A validated scene. Points have three coordinates; in two dimensions every z is 0.
@@ -102,17 +103,18 @@ impl Scene {
     /// how many bodies there are.
     #[must_use]
     pub fn bodies(&self) -> (Vec<usize>, usize) {
-        let mut names: Vec<Option<&str>> = Vec::new();
-        let mut numbers = Vec::new();
-        for region in &self.regions {
-            let name = region.body.as_deref();
-            let known = name.and_then(|name| names.iter().position(|other| *other == Some(name)));
-            numbers.push(known.unwrap_or(names.len()));
-            if known.is_none() {
-                names.push(name);
-            }
-        }
-        (numbers, names.len())
+        let mut known: HashMap<&str, usize> = HashMap::new();
+        let mut count = 0;
+        let mut new = || {
+            count += 1;
+            count - 1
+        };
+        let regions = self.regions.iter();
+        let numbers = regions.map(|region| match region.body.as_deref() {
+            Some(name) => *known.entry(name).or_insert_with(&mut new),
+            None => new(),
+        });
+        (numbers.collect(), count)
     }
 
     /// The support radius of the kernel, m.
@@ -180,13 +182,21 @@ impl Scene {
     /// What each elastic body is made of.
     #[must_use]
     pub fn solids(&self) -> Vec<Solid> {
-        let (bodies, count) = self.bodies();
-        let of_body = |body: usize| {
-            let region = bodies.iter().position(|number| *number == body)?;
-            let solid = self.solid?;
-            Some(self.regions[region].material.of(solid))
+        let Some(solid) = self.solid else {
+            return Vec::new();
         };
-        (0..count).filter_map(of_body).collect()
+        let (bodies, _) = self.bodies();
+        let mut count = 0;
+        let mut is_first = |body: usize| {
+            let is_new = body == count;
+            count += usize::from(is_new);
+            is_new
+        };
+        let regions = self.regions.iter().zip(bodies);
+        let firsts = regions.filter(|(_, body)| is_first(*body));
+        firsts
+            .map(|(region, _)| region.material.of(solid))
+            .collect()
     }
 
     /// The mass of every particle, fluid and wall, kg (kg/m in the plane).

@@ -84,8 +84,8 @@ fn wall_part<const D: usize>(scene: &Scene, wall: &InitialWall) -> WallPart<D> {
 
 /// The velocity with which a wall rubs, m/s.
 fn lid_velocity(region: &Region) -> Vector3 {
-    match (region.kind, region.velocity) {
-        (RegionKind::Wall, Some(Velocity::Uniform(velocity))) => velocity,
+    match (region.kind, &region.velocity[..]) {
+        (RegionKind::Wall, [Velocity::Uniform(velocity)]) => *velocity,
         _ => [0.0; 3],
     }
 }

@@ -13,6 +13,7 @@ use loschmidt_runner::{ArithmeticKind, BuildError, Options, Player, Run, RunErro
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 use thiserror::Error;
 
 /// Why a target came to no end.
@@ -141,6 +142,9 @@ pub fn scene_of(name: &str, text: &str) -> Result<Scene, LabError> {
 pub fn set<const N: usize>(pairs: [&str; N]) -> Vec<String> {
     pairs.map(str::to_owned).to_vec()
 }
+
+/// How often the signals are looked at during a set-up.
+const LOOK_UP: Duration = Duration::from_millis(5);
 
 const MARK: &str = "reproduce.json";
 
@@ -302,12 +306,14 @@ impl<'a> Lab<'a> {
         };
         let can_resume = RunDirectory::read_manifest(&path).is_ok()
             && RunDirectory::snapshot_path(&path, "latest").exists();
-        let mut run = if can_resume {
-            Run::resume(&path, |_| options)?
-        } else {
+        let (place, of) = (path.clone(), scene.clone());
+        let mut run = self.set_up(move || {
+            if can_resume {
+                return Run::resume(&place, |_| options);
+            }
             // What a killed run left before its first snapshot is of no use.
-            Run::start(scene.clone(), options, Some((&path, path.exists())))?
-        };
+            Run::start(of, options, Some((&place, place.exists())))
+        })??;
         let news = &mut self.news;
         let result = run.execute(
             |p| {
@@ -334,7 +340,27 @@ impl<'a> Lab<'a> {
     /// The scene cannot be simulated.
     pub fn player(&mut self, scene: &Scene, options: Options) -> Result<Player, LabError> {
         self.check()?;
-        Ok(Player::new(scene.clone(), scene.initial_state()?, options)?)
+        let scene = scene.clone();
+        self.set_up(move || -> Result<Player, LabError> {
+            let initial = scene.initial_state()?;
+            Ok(Player::new(scene, initial, options)?)
+        })?
+    }
+
+    /// Does what may take minutes on a thread of its own, and listens for a signal meanwhile. After
+    /// one the thread is left alone: it ends with the program.
+    fn set_up<T: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> Result<T, LabError> {
+        let worker = std::thread::spawn(work);
+        while !worker.is_finished() {
+            self.check()?;
+            std::thread::sleep(LOOK_UP);
+        }
+        worker
+            .join()
+            .or_else(|panic| std::panic::resume_unwind(panic))
     }
 
     /// Takes a player `steps` steps on, listening for a signal.
@@ -439,7 +465,7 @@ fn past(path: &Path, scene: &Scene) -> Option<Past> {
     ended.then_some(())?;
     Some(Past {
         scene: scene.clone(),
-        rows: RunDirectory::read_rows(path, u64::MAX).ok()?,
+        rows: RunDirectory::read_rows(path, &manifest, u64::MAX).ok()?,
         returned: two_way.then(|| manifest.digest.initial == manifest.digest.last),
         failure: manifest.failure,
         path: path.to_owned(),

@@ -3,7 +3,7 @@
 use super::{print, sense};
 use crate::cli::SceneArguments;
 use crate::exit::{Failure, NOT_EXACT, USAGE};
-use crate::progress::duration;
+use crate::progress::{duration, frame_bytes};
 use loschmidt_core::Fault;
 use loschmidt_runner::run::Plan;
 use loschmidt_runner::scene::{
@@ -18,16 +18,12 @@ use std::time::{Duration, Instant};
 /// Steps are tried for about this long to estimate the time of a run.
 const TRIAL: Duration = Duration::from_millis(500);
 
-/// Bytes of a particle in the CSV and VTP files of a frame, about.
-const BYTES_PER_PARTICLE: u64 = 250;
-
 /// Tells what a scene takes.
 pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
     let scene = load(&resolve(&arguments.scene)?, &arguments.overrides())?;
     let needed = setup::estimated_bytes(&scene);
     setup::check_memory(&scene).map_err(loschmidt_runner::RunError::from)?;
     let initial = scene.initial_state()?;
-    let (fluid, walls) = (initial.fluid.len(), initial.wall.len());
     let particles = particles(&scene, &initial);
     let makes_sense = sense::lines(&scene, &initial);
     let plan = Plan::of(&scene);
@@ -57,7 +53,7 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
         "disk",
         format!(
             "about {} for {frames} frames",
-            setup::bytes_for_people(frames * BYTES_PER_PARTICLE * (fluid + walls) as u64)
+            setup::bytes_for_people(frames * frame_bytes(player.home()))
         ),
     );
     line(
@@ -254,9 +250,9 @@ fn helium(scene: &Scene, superfluid: &Superfluid) -> String {
 fn walls(scene: &Scene, line: &mut impl FnMut(&str, String)) {
     let wall = |region: &&Region| region.kind == RegionKind::Wall;
     for (n, region) in scene.regions.iter().filter(wall).enumerate() {
-        let rubs = match (region.smooth, region.velocity) {
+        let rubs = match (region.smooth, &region.velocity[..]) {
             (true, _) => "smooth".to_owned(),
-            (false, Some(Velocity::Uniform(v))) => {
+            (false, [Velocity::Uniform(v)]) => {
                 format!("a lid of {:.3} m/s", v[0].hypot(v[1]).hypot(v[2]))
             }
             (false, _) => "rough".to_owned(),

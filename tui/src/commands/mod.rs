@@ -15,6 +15,7 @@ use crate::dashboard;
 use crate::exit::Failure;
 use clap::CommandFactory;
 use loschmidt_runner::output::Snapshot;
+use loschmidt_runner::plain::visible;
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -22,7 +23,7 @@ use std::process::ExitCode;
 pub fn execute(arguments: ProgramArguments) -> Result<ExitCode, Failure> {
     match arguments.command {
         None if dashboard::is_terminal() => tui::tui(&TuiArguments::default()),
-        None => run::run(&RunArguments::default()),
+        None => run::run(&RunArguments::small()),
         Some(ProgramCommand::Run(arguments)) => run::run(&arguments),
         Some(ProgramCommand::Tui(arguments)) => tui::tui(&arguments),
         #[cfg(feature = "window")]
@@ -52,7 +53,10 @@ pub fn execute(arguments: ProgramArguments) -> Result<ExitCode, Failure> {
 /// Writes to standard output; a reader that has gone away is not an error.
 fn print(text: &str) -> Result<ExitCode, Failure> {
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out
+        .write_all(visible(text).as_bytes())
+        .and_then(|()| out.flush())
+    {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(error.into()),
         _ => Ok(ExitCode::SUCCESS),
     }

@@ -2,9 +2,10 @@
 
 use super::print;
 use crate::cli::{MovieArguments, WorkArguments};
-use crate::exit::{Failure, USAGE, quote, tell};
+use crate::exit::{Failure, USAGE, tell};
 use crate::progress::Pictures;
 use crate::stop::Stop;
+use loschmidt_runner::plain::quote;
 use loschmidt_runner::scene::{self, Scene};
 use loschmidt_runner::{ArithmeticKind, Options, Player, RunError, setup};
 use loschmidt_viewer::movie::{

@@ -2,11 +2,12 @@
 
 use super::print;
 use crate::cli::ReproduceArguments;
-use crate::exit::{Failure, INTERRUPTED, NOT_EXACT, OUTPUT, RANGE, quote, tell};
+use crate::exit::{Failure, INTERRUPTED, NOT_EXACT, OUTPUT, RANGE, tell};
 use crate::progress::duration;
 use crate::stop::Stop;
 use loschmidt_reproduce::{Lab, LabError, News, Section, Target, report};
 use loschmidt_runner::Options;
+use loschmidt_runner::plain::quote;
 use std::io::IsTerminal;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};

@@ -36,7 +36,7 @@ pub fn run(arguments: &RunArguments) -> Result<ExitCode, Failure> {
             result => break result?,
         }
     };
-    execute(run, &arguments.work, &stop)
+    execute(run, &arguments.work, &arguments.scene.overrides(), &stop)
 }
 
 /// Goes on with a run.
@@ -54,7 +54,7 @@ pub fn resume(arguments: &ResumeArguments) -> Result<ExitCode, Failure> {
         }
     })?;
     stop.wait_for_steps();
-    execute(run, work, &stop)
+    execute(run, work, &[], &stop)
 }
 
 /// The options of the earlier part of a run.
@@ -75,10 +75,15 @@ struct PrintedResult<'a> {
     outcome: &'a Outcome,
 }
 
-fn execute(mut run: Run, work: &WorkArguments, stop: &Stop) -> Result<ExitCode, Failure> {
+fn execute(
+    mut run: Run,
+    work: &WorkArguments,
+    set: &[String],
+    stop: &Stop,
+) -> Result<ExitCode, Failure> {
     let (done, total) = (run.player().steps_taken(), run.plan().total());
     if !work.quiet {
-        announce(&run);
+        announce(&mut run, set);
     }
     let unit = run.player().scene().time_unit();
     let mut display = Display::new(work.quiet, unit, done, total);

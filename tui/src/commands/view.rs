@@ -9,12 +9,12 @@ use std::process::ExitCode;
 /// Opens the window.
 pub fn view(arguments: &WindowArguments) -> Result<ExitCode, Failure> {
     let stop = Stop::new()?;
-    stop.wait_for_steps();
     let options = Options::default();
     Ok(window::program(
         arguments,
         options,
         stop.asked(),
         "loschmidt view",
+        || stop.wait_for_steps(),
     ))
 }

@@ -13,6 +13,7 @@
 mod keys;
 mod message;
 mod state;
+mod suspension;
 mod terminal;
 mod update;
 mod view;
@@ -23,10 +24,11 @@ mod tests;
 pub use state::Depth;
 pub use terminal::is_terminal;
 
-use crate::exit::{Failure, INTERRUPTED, OUTPUT, USAGE, quote, tell};
+use crate::exit::{Failure, INTERRUPTED, OUTPUT, USAGE, tell};
 use crate::stop::Stop;
 use loschmidt_runner::Options;
 use loschmidt_runner::deck::{FRAMES, Opening, OpeningError, Report};
+use loschmidt_runner::plain::quote;
 use loschmidt_viewer::session::{
     DEFECT, Effect, Host, LostState, Message, Request, guarded, new_picture,
 };
@@ -39,6 +41,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant};
+use suspension::Suspension;
 use terminal::Terminal;
 
 /// How often the signals are looked at.
@@ -119,7 +122,15 @@ impl Dashboard {
         let pause = Duration::from_secs(1) / FRAMES;
         let mut drawn = Instant::now();
         let (mut urgent, mut waiting, mut picture) = (true, false, false);
+        let suspension = Suspension::new()?;
         while !self.state.session.leaving && !stop.load(Ordering::Relaxed) {
+            if suspension.obey(terminal::restore)? {
+                terminal.retake()?;
+                // Its size may be another.
+                let (columns, rows) = terminal.size()?;
+                self.take(DashboardMessage::Resized(columns, rows));
+                urgent = true;
+            }
             if urgent || (waiting && drawn.elapsed() >= pause) {
                 drawn = Instant::now();
                 terminal.draw(&self.state, self.host.deck())?;

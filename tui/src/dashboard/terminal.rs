@@ -5,8 +5,8 @@ use super::message::DashboardMessage;
 use super::state::DashboardState;
 use crossterm::event::{self, DisableMouseCapture, EnableMouseCapture};
 use crossterm::terminal::{
-    BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
-    SetTitle, disable_raw_mode, enable_raw_mode,
+    BeginSynchronizedUpdate, Clear, ClearType, EndSynchronizedUpdate, EnterAlternateScreen,
+    LeaveAlternateScreen, SetTitle, disable_raw_mode, enable_raw_mode,
 };
 use crossterm::{cursor, execute, queue};
 use loschmidt_runner::Deck;
@@ -53,14 +53,7 @@ impl Terminal {
                 before(info);
             }
         }));
-        enable_raw_mode()?;
-        let entered = execute!(
-            stdout(),
-            EnterAlternateScreen,
-            EnableMouseCapture,
-            cursor::Hide,
-            SetTitle("loschmidt")
-        );
+        let entered = take();
         let writer = BufWriter::with_capacity(BUFFER, stdout());
         let screen = entered.and_then(|()| Screen::new(CrosstermBackend::new(writer)));
         match screen {
@@ -79,6 +72,20 @@ impl Terminal {
     /// Columns and rows.
     pub fn size(&self) -> std::io::Result<(u16, u16)> {
         crossterm::terminal::size()
+    }
+
+    /// Takes the terminal again, which others had meanwhile.
+    pub fn retake(&mut self) -> std::io::Result<()> {
+        // What was raw is not made so again without this.
+        disable_raw_mode()?;
+        take()?;
+        if let Some(screen) = &mut self.screen {
+            // Nothing of what was drawn is there any more. (`Terminal::clear` would ask the terminal
+            // where its cursor is, and the thread that waits for keys would hear the answer.)
+            execute!(screen.backend_mut(), Clear(ClearType::All))?;
+            screen.swap_buffers();
+        }
+        Ok(())
     }
 
     /// Sends what the keyboard, the mouse and the window's frame say, from a thread of its own.
@@ -140,8 +147,20 @@ impl Drop for Terminal {
     }
 }
 
+/// Takes the terminal.
+fn take() -> std::io::Result<()> {
+    enable_raw_mode()?;
+    execute!(
+        stdout(),
+        EnterAlternateScreen,
+        EnableMouseCapture,
+        cursor::Hide,
+        SetTitle("loschmidt")
+    )
+}
+
 /// Gives the terminal back. Errors mean that it has gone, and are left out.
-fn restore() {
+pub fn restore() {
     let _ = disable_raw_mode();
     let _ = execute!(
         stdout(),

@@ -155,6 +155,20 @@ impl PseudoTerminal {
         assert!(sent.expect("kill").success());
     }
 
+    /// Waits until the program, which goes on, has left the terminal as it was.
+    pub fn wait_until_given_back(&self) {
+        let began = Instant::now();
+        let is_back = || {
+            let parser = self.parser.lock().expect("a parser");
+            !parser.screen().alternate_screen() && modes(&*self.master) == self.before
+        };
+        while !is_back() {
+            let late = began.elapsed() > Duration::from_secs(60);
+            assert!(!late, "the terminal is not given back");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
     /// Waits for the end of the program: its exit code, and that the terminal is as it was.
     pub fn ended_and_restored(&mut self) -> u32 {
         let code = self.child.wait().expect("an end").exit_code();

@@ -21,14 +21,17 @@ struct Program {
 fn main() -> ExitCode {
     let program = Program::parse();
     let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        // Without it the program ends at once, as programs do.
-        let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
-    }
+    let hear_signals = || {
+        for signal in [SIGINT, SIGTERM] {
+            // Without it the program ends at once, as programs do.
+            let _ = signal_hook::flag::register(signal, Arc::clone(&stop));
+        }
+    };
     window::program(
         &program.arguments,
         Options::default(),
         &stop,
         "loschmidt-viewer",
+        hear_signals,
     )
 }

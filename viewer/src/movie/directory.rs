@@ -110,7 +110,7 @@ impl Movie {
             {
                 manifest.finished = earlier.finished;
                 found = (0..style.pictures)
-                    .take_while(|&n| path.join(picture_name(n)).is_file())
+                    .take_while(|&n| is_whole(&path.join(picture_name(n)), style.size))
                     .count();
                 manifest.finished &= found == style.pictures;
             }
@@ -274,6 +274,11 @@ fn remove(path: &Path) -> Result<(), MovieError> {
         }
         _ => Ok(()),
     }
+}
+
+/// Whether a picture of this size is there, whole and as it was written.
+fn is_whole(path: &Path, size: (usize, usize)) -> bool {
+    fs::read(path).is_ok_and(|bytes| png::is_whole(&bytes, size))
 }
 
 /// Reads one of the pictures, or one to tint with.

@@ -1,6 +1,7 @@
 //! Why there is no movie.
 
 use loschmidt_runner::RunError;
+use loschmidt_runner::plain::quote;
 use loschmidt_runner::ranged_fault::RangedFault;
 use std::path::PathBuf;
 use thiserror::Error;
@@ -48,17 +49,31 @@ pub enum MovieError {
         source: crate::picture::ReadError,
     },
     /// A run that is still to come to its end.
-    #[error("the run in {} has not finished; go on with\n    loschmidt resume {}", .0.display(), .0.display())]
+    #[error("the run in {} has not finished; go on with\n    loschmidt resume {}", .0.display(), quote(.0))]
     Unfinished(PathBuf),
+    /// A run that is being taken at this moment.
+    #[error(
+        "the run in {} is at work at this moment, after {steps} of {planned} steps; a movie can be \
+         made of it when it has ended",
+        path.display()
+    )]
+    AtWork {
+        /// The run's directory.
+        path: PathBuf,
+        /// Steps taken when it last said so.
+        steps: u64,
+        /// Steps of the whole run.
+        planned: u64,
+    },
     /// A directory that a user of the dashboard or the window left.
-    #[error("{} was left by the dashboard or the window, and holds no frames\nhelp: `loschmidt movie {}` makes a movie of its scene", .0.display(), .0.join("scene.toml").display())]
+    #[error("{} was left by the dashboard or the window, and holds no frames\nhelp: `loschmidt movie {}` makes a movie of its scene", .0.display(), quote(&.0.join("scene.toml")))]
     Watched(PathBuf),
     /// A run with too few frames.
     #[error(
         "the run in {} stored {stored} frames, and {wanted} pictures were asked for\nhelp: --seconds {} shows each frame once; `loschmidt run --set output.frames={wanted}` stores more, and\n    loschmidt movie {}\nsimulates again",
         path.display(),
         (10.0 * *stored as f64 / f64::from(*fps)).floor() / 10.0,
-        path.join("scene.toml").display()
+        quote(&path.join("scene.toml"))
     )]
     FewFrames {
         /// The run's directory.

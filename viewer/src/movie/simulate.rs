@@ -1,7 +1,8 @@
 //! Pictures of runs that are simulated for them.
 //!
 //! One run, or two of the same scene in different arithmetic. After a picture both are at the same
-//! step; that is where an interrupted export goes on.
+//! step; that is where an interrupted export goes on. The plots have a point for every row that a run
+//! would record, and for every picture.
 
 use super::directory::{Movie, replace};
 use super::error::MovieError;
@@ -15,7 +16,7 @@ use loschmidt_runner::output::series::{self, SeriesWriter};
 use loschmidt_runner::player::Return;
 use loschmidt_runner::ranged_fault::RangedFault;
 use loschmidt_runner::run::Row;
-use loschmidt_runner::{ArithmeticKind, Arrow, Player, Points, SavedState};
+use loschmidt_runner::{ArithmeticKind, Arrow, Plan, Player, Points, SavedState};
 use std::fs::File;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -47,12 +48,25 @@ struct Strand {
     kept: (SavedState, i64, Arrow),
 }
 
+impl Strand {
+    /// Measures the state for the plots; the way out has so many steps.
+    fn measure(&mut self, out: u64) -> Result<(), MovieError> {
+        let player = &mut self.player;
+        let leg = if player.steps_taken() > out { 2 } else { 1 };
+        let row = Row::measure(player, leg).map_err(|fault| fault_of(player, fault))?;
+        self.history.push((&row).into());
+        self.rows.push(row);
+        Ok(())
+    }
+}
+
 /// Runs under way.
 struct Export<'a> {
     strands: Vec<Strand>,
     home: Home,
     look: Look,
     schedule: Schedule,
+    plan: Plan,
     scene: [u8; 16],
     comes_home: bool,
     stop: &'a AtomicBool,
@@ -116,7 +130,7 @@ impl<'a> Export<'a> {
             if home.is_none() {
                 let frame = player.frame().map_err(|fault| fault_of(&player, fault))?;
                 home = Some(Home::new(player.scene(), &frame));
-                plan = Some(loschmidt_runner::Plan::of(player.scene()));
+                plan = Some(Plan::of(player.scene()));
                 scene = hash(player.scene().to_toml().as_bytes());
             }
             strands.push(Strand {
@@ -132,6 +146,7 @@ impl<'a> Export<'a> {
         Ok(Self {
             look: movie.style.look(&home),
             schedule: Schedule::new(&plan, movie.style.pictures),
+            plan,
             comes_home: plan.back == plan.out,
             strands,
             home,
@@ -153,21 +168,27 @@ impl<'a> Export<'a> {
     fn advance(&mut self, target: u64) -> Result<bool, MovieError> {
         let out = self.schedule.out;
         for strand in &mut self.strands {
-            let player = &mut strand.player;
-            let particles = player.home().id.len() as u64;
+            let particles = strand.player.home().id.len() as u64;
             let piece = (PIECE / particles.max(1)).max(1);
-            while player.steps_taken() < target {
+            while strand.player.steps_taken() < target {
                 if self.stop.load(Ordering::Relaxed) {
                     return Ok(false);
                 }
+                let player = &mut strand.player;
                 let step = player.steps_taken();
                 if step == out {
                     player.turn();
                 }
                 let until = if step < out { target.min(out) } else { target };
+                let most = (until - step).min(piece);
+                let row = (1..most).find(|n| self.plan.due(step + n).row);
+                let next = step + row.unwrap_or(most);
                 player
-                    .advance((until - step).min(piece))
+                    .advance(next - step)
                     .map_err(|fault| fault_of(player, fault))?;
+                if next < target && self.plan.due(next).row {
+                    strand.measure(out)?;
+                }
             }
         }
         Ok(!self.stop.load(Ordering::Relaxed))
@@ -176,18 +197,11 @@ impl<'a> Export<'a> {
     /// Measures the runs and draws picture `n`, unless it is there.
     fn picture(&mut self, movie: &mut Movie, n: usize) -> Result<(), MovieError> {
         let began = Instant::now();
-        let leg = if self.strands[0].player.steps_taken() > self.schedule.out {
-            2
-        } else {
-            1
-        };
         let wanted = n >= movie.found();
         let mut pictures: Vec<Points> = Vec::new();
         for strand in &mut self.strands {
+            strand.measure(self.schedule.out)?;
             let player = &mut strand.player;
-            let row = Row::measure(player, leg).map_err(|fault| fault_of(player, fault))?;
-            strand.history.push((&row).into());
-            strand.rows.push(row);
             if wanted {
                 let mut points = Points::default();
                 player
@@ -297,12 +311,12 @@ impl<'a> Export<'a> {
         let same = loaded
             .iter()
             .all(|(snapshot, rows)| snapshot.state.step == step && rows.len() == measured);
-        // There is one row for every picture.
-        let belongs =
-            (1..=movie.found()).contains(&measured) && self.schedule.step(measured - 1) == step;
-        if !same || !belongs {
+        // It was kept after one of the pictures that are there.
+        let picture = (0..movie.found()).find(|&n| self.schedule.step(n) == step);
+        let last = rows.last().map(|row| row.step);
+        let Some(picture) = picture.filter(|_| same && last == Some(step)) else {
             return Ok(0);
-        }
+        };
         for (strand, (snapshot, rows)) in self.strands.iter_mut().zip(loaded) {
             let restored =
                 strand
@@ -313,7 +327,7 @@ impl<'a> Export<'a> {
             strand.rows = rows;
         }
         self.keep();
-        Ok(measured)
+        Ok(picture + 1)
     }
 
     fn load(&self, movie: &Movie, n: usize) -> Option<(Snapshot, Vec<Row>)> {

@@ -44,17 +44,26 @@ impl Stored {
         if manifest.status == RunStatus::Watched {
             return Err(MovieError::Watched(path.to_owned()));
         }
+        if manifest.status == RunStatus::Running && RunDirectory::is_in_use(path) {
+            return Err(MovieError::AtWork {
+                path: path.to_owned(),
+                steps: manifest.steps,
+                planned: manifest.steps_planned,
+            });
+        }
         if manifest.status != RunStatus::Finished {
             return Err(MovieError::Unfinished(path.to_owned()));
         }
         let source = Source::Path(RunDirectory::scene_path(path));
         let scene = load(&source, &[]).map_err(RunError::from)?;
         let plan = Plan::of(&scene);
-        let rows = RunDirectory::read_rows(path, plan.total()).map_err(RunError::from)?;
+        let rows = RunDirectory::read_rows(path, &manifest, plan.total());
+        let rows = rows.map_err(RunError::from)?;
         let steps: Vec<u64> = plan.frames_until(plan.total()).collect();
         if steps.is_empty() {
             return Err(MovieError::NoFrames(path.to_owned()));
         }
+        RunDirectory::has_frames(path, steps.len(), &["csv"]).map_err(RunError::from)?;
         let span = scene.steps_out() as f64 * scene.time_step();
         Ok(Self {
             path: path.to_owned(),

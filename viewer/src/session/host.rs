@@ -7,11 +7,11 @@ use super::request::Request;
 use super::state::Session;
 use super::update::update;
 use loschmidt_runner::deck::{Command, Opening, Report, Wishes};
-use loschmidt_runner::output::free_directory;
+use loschmidt_runner::output::free_directory_in;
 use loschmidt_runner::{Deck, Options};
 use std::fs::File;
 use std::io::ErrorKind;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -121,42 +121,67 @@ impl Host {
 
     /// Has the state kept in a new directory: what was kept before stays as it was.
     fn keep(&self, session: &Session) {
+        self.keep_below(session, Path::new(""));
+    }
+
+    /// The same, in this folder.
+    fn keep_below(&self, session: &Session, folder: &Path) {
         if let Some(stage) = &session.stage {
             self.send(Command::Keep {
-                path: free_directory(&stage.home.name),
+                path: free_directory_in(folder, &stage.home.name),
                 rows: stage.track.rows(),
             });
         }
     }
 
     /// Keeps what would be lost; the directory to go on from, where there is something to go on
-    /// with. `next`: the next report of the present deck, waited for until then.
+    /// with. Where the present folder cannot be written to, that is one for temporary files.
+    /// `next`: the next report of the present deck, waited for until then. A deck that is still
+    /// setting up its scene is left alone, and ends with the program.
     ///
     /// # Errors
     /// The state is lost.
     pub fn keep_at_the_end(
-        &self,
+        &mut self,
         session: &mut Session,
         mut next: impl FnMut(Instant) -> Option<Report>,
     ) -> Result<Option<PathBuf>, LostState> {
         self.send(Command::Play(false));
         settle(session, &mut next);
+        if session.stage.is_none()
+            && let Some(deck) = self.deck.take()
+        {
+            deck.leave();
+        }
         if session.unsaved() {
             self.keep(session);
-            let end = Instant::now() + PATIENCE;
-            loop {
-                match next(end) {
-                    Some(Report::Kept(path)) => return Ok(Some(path)),
-                    Some(Report::NotKept(why)) => return Err(LostState::NotWritten(why)),
-                    Some(_) => {}
-                    None => return Err(LostState::Silent),
+            return match heard_of_keeping(&mut next) {
+                Err(LostState::NotWritten(_)) => {
+                    self.keep_below(session, &std::env::temp_dir());
+                    heard_of_keeping(&mut next).map(Some)
                 }
-            }
+                other => other.map(Some),
+            };
         }
         let stage = session.stage.as_ref();
         let on_the_way = stage.is_some_and(|stage| stage.status.position != 0);
         let kept = session.kept.as_ref().filter(|_| on_the_way);
         Ok(kept.map(|kept| kept.path.clone()))
+    }
+}
+
+/// Waits until a state is kept.
+fn heard_of_keeping(
+    next: &mut impl FnMut(Instant) -> Option<Report>,
+) -> Result<PathBuf, LostState> {
+    let end = Instant::now() + PATIENCE;
+    loop {
+        match next(end) {
+            Some(Report::Kept(path)) => return Ok(path),
+            Some(Report::NotKept(why)) => return Err(LostState::NotWritten(why)),
+            Some(_) => {}
+            None => return Err(LostState::Silent),
+        }
     }
 }
 

@@ -11,6 +11,7 @@ use crate::keys::{self, Action, Key};
 use crate::look::Look;
 use crate::picture::Picture;
 use loschmidt_runner::deck::Arrival;
+use loschmidt_runner::plain::visible;
 use std::path::Path;
 use std::time::Duration;
 
@@ -124,6 +125,7 @@ impl Session {
 
     /// Tells the user something.
     pub(super) fn tell(&mut self, tone: Tone, text: impl Into<String>) {
-        self.notice = Some(Notice::new(tone, text, self.now));
+        let text = text.into();
+        self.notice = Some(Notice::new(tone, visible(&text), self.now));
     }
 }

@@ -15,6 +15,7 @@ use crate::keys::{Action, Key};
 use crate::picture::Picture;
 use loschmidt_core::Reversibility;
 use loschmidt_runner::deck::{Beside, Command, Opened, Report, faster, slower};
+use loschmidt_runner::plain::visible;
 use loschmidt_runner::{ArithmeticKind, Points};
 use std::sync::Arc;
 
@@ -73,6 +74,7 @@ fn tint(session: &mut Session, picture: Picture) {
 
 /// Says why something could not be opened, where the user looks.
 fn not_opened(session: &mut Session, why: String) {
+    let why = visible(&why).into_owned();
     match &mut session.overlay {
         Overlay::Parameters(panel) => panel.problem = Some(why),
         overlay if session.stage.is_none() => *overlay = Overlay::Error(why),
@@ -104,7 +106,7 @@ fn on_report(session: &mut Session, report: Report) -> Option<Points> {
         }
         Report::Failed(why) => {
             session.stage = None;
-            session.overlay = Overlay::Error(why);
+            session.overlay = Overlay::Error(visible(&why).into_owned());
             return None;
         }
         _ => {}

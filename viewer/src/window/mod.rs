@@ -37,6 +37,7 @@ use crate::session::{MOST_THREADS, Request, guarded};
 use app::{App, Wake};
 use clap::Args;
 use loschmidt_runner::Options;
+use loschmidt_runner::plain::{quote, visible};
 use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -129,8 +130,8 @@ impl WindowArguments {
     }
 }
 
-/// Shows a window until its user leaves or `stop` is set. The directory to go on from, where there
-/// is something to go on with.
+/// Shows a window until its user leaves or `stop` is set, which is looked at once `ready` is called.
+/// The directory to go on from, where there is something to go on with.
 ///
 /// # Errors
 /// [`WindowError`].
@@ -138,6 +139,7 @@ pub fn run(
     arguments: &WindowArguments,
     options: Options,
     stop: Arc<AtomicBool>,
+    ready: impl FnOnce(),
 ) -> Result<Option<PathBuf>, WindowError> {
     // What cannot be read is said before there is a window.
     let request = arguments.request();
@@ -146,6 +148,7 @@ pub fn run(
     if request.beside && opening.recorded.is_some() {
         return Err(WindowError::Beside(request.name));
     }
+    ready();
     let event_loop = event_loop()?;
     let handles = (event_loop.create_proxy(), event_loop.owned_display_handle());
     let state = WindowState::new(arguments.size, 1.0, arguments.look(), picture);
@@ -187,27 +190,28 @@ fn event_loop() -> Result<EventLoop<Wake>, WindowError> {
 }
 
 /// The whole of a program that shows a window: [`run`], and what is said at the end. `name`: what
-/// is typed to go on, before the directory.
-#[must_use]
+/// is typed to go on, before the directory; `ready` is called when the scene has been read: before,
+/// there is nothing that a signal could cost.
 pub fn program(
     arguments: &WindowArguments,
     options: Options,
     stop: &Arc<AtomicBool>,
     name: &str,
+    ready: impl FnOnce(),
 ) -> ExitCode {
     // A terminal that has gone away ends nothing.
     let say = |text: String| {
-        let _ = writeln!(std::io::stderr(), "{text}");
+        let _ = writeln!(std::io::stderr(), "{}", visible(&text));
     };
     let go_on = |kept: Option<&PathBuf>| {
         if let Some(path) = kept {
-            let path = path.display();
+            let path = quote(path);
             say(format!(
                 "go on from where you left it with\n    {name} {path}"
             ));
         }
     };
-    match run(arguments, options, Arc::clone(stop)) {
+    match run(arguments, options, Arc::clone(stop), ready) {
         Ok(kept) => {
             go_on(kept.as_ref());
             if stop.load(Ordering::Relaxed) {

@@ -136,8 +136,8 @@ fn still_walls(player: &Player, initial: &InitialState) -> Vec<[[f64; 2]; 2]> {
     let velocity = |place: usize| {
         let before = |wall: &&InitialWall| wall.first <= place as u64;
         let wall = initial.walls.iter().rev().find(before);
-        match wall.and_then(|wall| regions[wall.region].velocity) {
-            Some(Velocity::Uniform(velocity)) => plane(velocity),
+        match wall.map(|wall| &regions[wall.region].velocity[..]) {
+            Some([Velocity::Uniform(velocity)]) => plane(*velocity),
             _ => [0.0; 2],
         }
     };

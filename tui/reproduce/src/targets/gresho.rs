@@ -114,9 +114,8 @@ impl Vortex {
 /// Runs a vortex to its end.
 pub fn vortex(lab: &mut Lab<'_>, name: &str, scene: &Scene) -> Result<Vortex, LabError> {
     let mut player: Player = lab.player(scene, lab.options())?;
-    let exact = scene.regions[0]
-        .velocity
-        .unwrap_or(Velocity::Uniform([0.0; 3]));
+    let exact = scene.regions[0].velocity.first().copied();
+    let exact = exact.unwrap_or(Velocity::Uniform([0.0; 3]));
     let steps = scene.steps_out();
     let mut series = Vec::new();
     let mut sample = |player: &mut Player| -> Result<Frame, LabError> {
