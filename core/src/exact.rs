@@ -17,9 +17,6 @@ impl Accumulate for ExactSum {
     fn accumulate(self, term: f64) -> Option<Self> {
         Some(self.plus(term))
     }
-    fn plus_quanta(self, quanta: i64) -> Self {
-        Self(self.0.saturating_add(i128::from(quanta) << FRACTION_BITS))
-    }
 }
 
 impl ExactSum {

@@ -6,10 +6,9 @@
 use crate::fault::Fault;
 use crate::neighbours::{Cells, Grid};
 use crate::number::Arithmetic;
-use crate::pairs::{PairPass, Sources, Targets, gather, term_count};
+use crate::pairs::{PairPass, Sources, Targets, add, empty, gather, grain, term_count};
 use crate::points::{PointPass, visit};
 use crate::set::Set;
-use crate::values::Values;
 
 /// Owns the traversal of particles and pairs; never a number.
 pub trait Executor {
@@ -95,12 +94,11 @@ impl Executor for Serial {
         out: &mut [A::Word],
     ) -> Result<(), Fault> {
         let mut first: Option<Fault> = None;
+        let grain = grain(pass, to);
         for (i, out) in out.chunks_exact_mut(term_count::<P, D>()).enumerate() {
-            let mut sum = P::Term::<A::Word>::from_fn(|k| out[k]);
+            let mut sum: P::Term<A::Sum> = empty::<A, _>(grain);
             let result = gather(pass, to, i, from, &mut sum);
-            for (k, out) in out.iter_mut().enumerate() {
-                *out = sum.get(k);
-            }
+            add::<A, _>(&sum, out);
             if let Err(kind) = result {
                 let fault = Fault::new(kind, to.id[i]);
                 first = Some(first.map_or(fault, |other| other.first(fault)));

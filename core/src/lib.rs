@@ -4,8 +4,8 @@
 //! step runs on a microcontroller and on a server and leaves the same bits. Read it in layers, each
 //! standing on those before it:
 //!
-//! 1. [`number`]: fixed-point types of the state, the one odd rounding, doubles of a pair term.
-//!    [`mod@values`]: numbers with names.
+//! 1. [`rounding`]: the one odd rounding, and sums that have no order. [`number`]: fixed-point types
+//!    of the state, doubles of a pair term. [`mod@values`]: numbers with names.
 //! 2. [`fields`]: what a particle consists of, declared once. [`set`], [`operands`]: particles on
 //!    memory lent by the caller.
 //! 3. [`kernel`], [`neighbours`], [`pairs`], [`points`]: the smoothing kernel, cells, sums over
@@ -45,6 +45,7 @@ pub mod owned;
 pub mod pairs;
 pub mod points;
 pub mod prelude;
+pub mod rounding;
 pub mod schemes;
 pub mod set;
 pub mod shears;

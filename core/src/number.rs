@@ -30,10 +30,13 @@
 //! The magnitude is tested *before* the conversion, and in a form that a NaN fails; a cast with
 //! `as` would have turned it into 0.
 
+use crate::rounding::{FineSum, LIMIT};
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Sub};
 use fixed::FixedI64;
 use fixed::types::extra::{LeEqU64, U0, U40, U46, Unsigned};
+
+pub use crate::rounding::{Accumulate, Grain, LIMIT_BITS, PairSum, larger, round};
 
 /// A position or displacement component, in scene units of 2^k m.
 pub type Length = FixedI64<U46>;
@@ -44,13 +47,6 @@ pub type Density = FixedI64<U40>;
 
 /// Quanta of a field whose unit is declared elsewhere: the integers themselves.
 pub type Whole = FixedI64<U0>;
-
-/// Bound, in quanta, of what rounding accepts and of what the state may hold: magnitudes below
-/// 2^51. (The last accepted ones, from 2^51 - 1/2 on, round to 2^51 itself.)
-pub const LIMIT_BITS: i64 = 1 << 51;
-const LIMIT: f64 = LIMIT_BITS as f64;
-/// 3·2^51: adding it rounds any |x| < 2^51 to an integer.
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// Square root, correctly rounded: the standard library's where there is one, which the compiler
 /// writes in place; `libm`'s elsewhere.
@@ -107,19 +103,6 @@ pub fn exp(x: f64) -> f64 {
     sum
 }
 
-/// R(x), the only way into the state; `None` for |x| >= 2^51 and for a NaN.
-#[inline]
-#[must_use]
-pub fn round(x: f64) -> Option<i64> {
-    // Written so that a NaN fails it.
-    if x.abs() < LIMIT {
-        let shifted = (x + ROUNDER).to_bits();
-        Some(shifted.wrapping_sub(ROUNDER.to_bits()) as i64)
-    } else {
-        None
-    }
-}
-
 /// Several doubles at once, or one: what a pair term is written in.
 ///
 /// A term is one expression; for `f64` it is the plain reference, for a row of doubles it is what
@@ -158,22 +141,25 @@ impl Lanes for f64 {
     }
 }
 
-/// What integers or other exact numbers a sum is made of.
-pub trait Accumulate: Copy + Send + Sync {
-    /// The sum with one more term, rounded once; `None` where the term is out of range.
-    fn accumulate(self, term: f64) -> Option<Self>;
-    /// The sum with whole quanta that were rounded and summed elsewhere.
-    fn plus_quanta(self, quanta: i64) -> Self;
-}
-
 impl<Q: Quantity> Accumulate for Q {
     #[inline]
     fn accumulate(self, term: f64) -> Option<Self> {
         self.add_rounded(term)
     }
+}
+
+impl PairSum<Self> for Whole {
     #[inline]
-    fn plus_quanta(self, quanta: i64) -> Self {
-        self.plus(Self::from_whole_quanta(quanta))
+    fn empty(_: Grain) -> Self {
+        Self::ZERO
+    }
+    #[inline]
+    fn added_to(self, word: Self) -> Self {
+        word.wrapping_add(self)
+    }
+    #[inline(always)]
+    fn grains_added_to(grains: i64, _: Grain, word: Self) -> Self {
+        word.wrapping_add(Self::from_bits(grains))
     }
 }
 
@@ -344,7 +330,9 @@ pub trait Arithmetic: Copy + Debug + Send + Sync + 'static {
     type Density: Quantity;
     /// Quanta of any field: all fields are stored as these.
     type Word: Word;
-    /// True where the sums do not depend on their order, and so a step can be undone exactly.
+    /// What sums over pairs are made in, which no order changes; see [`mod@crate::rounding`].
+    type Sum: PairSum<Self::Word>;
+    /// True where what is added to the state is whole quanta, and so a step can be undone exactly.
     const EXACT: bool;
 }
 
@@ -357,11 +345,12 @@ impl Arithmetic for Fixed {
     type Speed = Speed;
     type Density = Density;
     type Word = Whole;
+    type Sum = Whole;
     const EXACT: bool = true;
 }
 
-/// Floating-point state with the same pair terms, summed in the order the neighbours come:
-/// the control experiment that does not return.
+/// Floating-point state with the same pair terms: the control experiment that does not return,
+/// because what is added to a double is rounded to what the double has room for.
 #[derive(Clone, Copy, Debug)]
 pub struct Float;
 
@@ -370,6 +359,7 @@ impl Arithmetic for Float {
     type Speed = f64;
     type Density = f64;
     type Word = f64;
+    type Sum = FineSum;
     const EXACT: bool = false;
 }
 

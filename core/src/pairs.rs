@@ -4,13 +4,14 @@
 //!
 //! S_i = Σ_j R(term(x_i - x_j, read_i, read_j)),
 //!
-//! where R rounds to whole quanta. The terms are integers once they are rounded, so no order of
-//! the j, no partition among threads and no SIMD width changes S_i. [`Parity`] tells an executor
-//! that walks half of the pairs what the partner receives.
+//! where R rounds to whole quanta, of a floating-point state to whole [grains](Grain). The terms are
+//! integers once they are rounded, so no order of the j, no partition among threads and no SIMD
+//! width changes S_i. [`Parity`] tells an executor that walks half of the pairs what the partner
+//! receives.
 
 use crate::fault::{FaultKind, MAX_NEIGHBOURS};
 use crate::neighbours::{CellsView, Grid};
-use crate::number::{Accumulate, Arithmetic, Lanes, Quantity};
+use crate::number::{Accumulate, Arithmetic, Grain, Lanes, PairSum, Quantity, larger};
 use crate::set::{Column, read};
 use crate::values::Values;
 
@@ -99,6 +100,60 @@ pub struct Sources<'a, A: Arithmetic, const D: usize> {
     pub position: &'a [[A::Length; D]],
     /// What the pass reads.
     pub read: &'a [Column<'a, A::Word>],
+}
+
+/// The largest magnitude of each number that a pass reads of the targets; a NaN before all.
+#[must_use]
+pub fn largest<A: Arithmetic, P: PairPass<D>, const D: usize>(
+    to: &Targets<'_, A, D>,
+) -> P::Read<f64> {
+    let mut largest = P::Read::<f64>::from_fn(|_| 0.0);
+    for place in 0..to.position.len() {
+        let values: P::Read<f64> = read(to.read, place);
+        for c in 0..read_count::<P, D>() {
+            largest.set(c, larger(largest.get(c), values.get(c)));
+        }
+    }
+    largest
+}
+
+/// What the terms of a sum are rounded to where none exceeds `bound`.
+#[must_use]
+pub fn grain_under<A: Arithmetic>(bound: f64) -> Grain {
+    if A::EXACT {
+        Grain::QUANTUM
+    } else {
+        Grain::under(bound)
+    }
+}
+
+/// What the terms of a sum are rounded to, whoever takes it.
+#[must_use]
+pub fn grain<A: Arithmetic, P: PairPass<D>, const D: usize>(
+    pass: &P,
+    to: &Targets<'_, A, D>,
+) -> Grain {
+    // The particles of another set, walls, are near to few: their sums may take longer.
+    let is_bounded = to.same_set && !A::EXACT;
+    grain_under::<A>(match is_bounded {
+        true => pass.bound(&largest::<A, P, D>(to)),
+        false => f64::INFINITY,
+    })
+}
+
+/// A term's sums without terms yet.
+#[inline]
+#[must_use]
+pub fn empty<A: Arithmetic, V: Values<A::Sum>>(grain: Grain) -> V {
+    V::from_fn(|_| A::Sum::empty(grain))
+}
+
+/// Adds a term's sums to the words of a target.
+#[inline]
+pub fn add<A: Arithmetic, V: Values<A::Sum>>(sum: &V, out: &mut [A::Word]) {
+    for (k, out) in out.iter_mut().enumerate() {
+        *out = sum.get(k).added_to(*out);
+    }
 }
 
 /// x_i - x_j in length quanta, and its square.

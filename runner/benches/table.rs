@@ -1,7 +1,7 @@
-//! Prints the README's table of speeds:
+//! Prints the README's tables of speeds, that of the executors or that of the two arithmetics:
 //!
 //! ```text
-//! cargo bench -p loschmidt-runner --bench table [-- SIZE…]
+//! cargo bench -p loschmidt-runner --bench table [-- [float] SIZE…]
 //! ```
 //!
 //! Each column is nanoseconds of wall time for one particle and step. In every round each of the
@@ -12,7 +12,7 @@ mod states;
 
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::{InitialState, Scene, Source, load};
-use loschmidt_runner::{ExecutorKind, Player};
+use loschmidt_runner::{ArithmeticKind, ExecutorKind, Options, Player};
 use states::{SIZES, Size, options, player, state};
 use std::time::Instant;
 
@@ -61,6 +61,9 @@ fn main() {
         .skip(1)
         .filter(|a| a != "--bench")
         .collect();
+    if only.first().is_some_and(|first| first == "float") {
+        return arithmetics(&only[1..]);
+    }
     let backends: Vec<Backend> = Backend::ALL
         .into_iter()
         .filter(|backend| backend.is_available())
@@ -74,8 +77,7 @@ fn main() {
         "|---|---:|---:|{}---:|---:|---:|",
         "---:|".repeat(names.len())
     );
-    let wanted =
-        |size: &Size| only.is_empty() || only.iter().any(|name| size.name.contains(name.as_str()));
+    let wanted = |size: &Size| is_wanted(size, &only);
     for (disordered, kind) in [(true, "disordered"), (false, "near a lattice")] {
         for size in SIZES.into_iter().filter(wanted) {
             row(size, &state(size, disordered), kind, &backends);
@@ -84,6 +86,54 @@ fn main() {
     for size in OTHERS.into_iter().filter(wanted) {
         row(size, &body(size), "as it begins", &backends);
     }
+}
+
+fn is_wanted(size: &Size, only: &[String]) -> bool {
+    only.is_empty() || only.iter().any(|name| size.name.contains(name.as_str()))
+}
+
+/// Floating point by the reference and by the fast executor, and fixed point by the latter, on one
+/// thread.
+fn arithmetics(only: &[String]) {
+    println!(
+        "| state | particles | float, serial | float | fixed | serial : float | float : fixed |"
+    );
+    println!("|---|---:|---:|---:|---:|---:|---:|");
+    let of = |executor, arithmetic| Options {
+        arithmetic,
+        ..options(executor, 1, Backend::best())
+    };
+    let ways = [
+        of(ExecutorKind::Serial, ArithmeticKind::Float),
+        of(ExecutorKind::Fast, ArithmeticKind::Float),
+        of(ExecutorKind::Fast, ArithmeticKind::Fixed),
+    ];
+    for size in SIZES.into_iter().filter(|size| is_wanted(size, only)) {
+        let state = state(size, true);
+        let [serial, float, fixed] = least(&mut ways.map(|way| player(&state, way)))[..] else {
+            return;
+        };
+        println!(
+            "| {size}, disordered | {} | {serial:.0} | {float:.0} | {fixed:.0} | {:.1} | {:.2} |",
+            state.1.fluid.len(),
+            serial / float,
+            float / fixed
+        );
+    }
+}
+
+/// The least time of each player; the first is the reference.
+fn least(players: &mut [Player]) -> Vec<f64> {
+    let mut least = vec![f64::INFINITY; players.len()];
+    for _ in 0..ROUNDS {
+        for (p, (player, least)) in players.iter_mut().zip(&mut least).enumerate() {
+            // A layout lasts for a few steps: some of its lives. The reference has none.
+            let steps = (WORK / player.home().id.len() as f64).clamp(14.0, 700.0) as u64;
+            let steps = if p == 0 { steps.div_ceil(7) } else { steps };
+            *least = least.min(nanoseconds(player, steps));
+        }
+    }
+    least
 }
 
 fn row(size: Size, state: &(Scene, InitialState), kind: &str, backends: &[Backend]) {
@@ -95,15 +145,7 @@ fn row(size: Size, state: &(Scene, InitialState), kind: &str, backends: &[Backen
     players.extend(backends.iter().map(|backend| fast(1, *backend)));
     players.push(fast(2, Backend::best()));
     let particles = state.1.fluid.len();
-    let mut least = vec![f64::INFINITY; players.len()];
-    for _ in 0..ROUNDS {
-        for (p, (player, least)) in players.iter_mut().zip(&mut least).enumerate() {
-            // A layout lasts for a few steps: some of its lives. The reference has none.
-            let steps = (WORK / particles as f64).clamp(14.0, 700.0) as u64;
-            let steps = if p == 0 { steps.div_ceil(7) } else { steps };
-            *least = least.min(nanoseconds(player, steps));
-        }
-    }
+    let least = least(&mut players);
     let serial = least[0];
     let one = least[1];
     let two = least[least.len() - 1];

@@ -107,14 +107,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
         match &self.executor {
             AnyExecutor::Serial(exec) => task.run(model, &mut system, held, exec),
             AnyExecutor::Rayon(exec) => exec.install(|| task.run(model, &mut system, held, exec)),
-            // Sweeps are written for integer sums. Others are left to the plain traversal here, so that
-            // the sweeps need not be compiled for them.
-            AnyExecutor::Fast(exec) if A::EXACT => {
-                exec.install(|| task.run(model, &mut system, held, &**exec))
-            }
-            AnyExecutor::Fast(exec) => {
-                exec.install(|| task.run(model, &mut system, held, exec.threads()))
-            }
+            AnyExecutor::Fast(exec) => exec.install(|| task.run(model, &mut system, held, &**exec)),
         }
     }
 
@@ -296,7 +289,7 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Simulation for Engine<A, M, 
 
     fn backend(&self) -> String {
         match &self.executor {
-            AnyExecutor::Fast(exec) if A::EXACT => exec.backend_at_work(),
+            AnyExecutor::Fast(exec) => exec.backend_at_work(),
             _ => "serial".to_owned(),
         }
     }

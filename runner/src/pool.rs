@@ -9,17 +9,18 @@ use crate::drive::Drive;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
 use loschmidt_core::neighbours::{Cells, Grid};
 use loschmidt_core::operands::Operands;
-use loschmidt_core::pairs::{PairPass, Sources, Targets, accumulate, separation, term_count};
+use loschmidt_core::pairs::{
+    PairPass, Sources, Targets, accumulate, add, empty, grain, separation, term_count,
+};
 use loschmidt_core::points::{PointPass, visit};
 use loschmidt_core::set::{Set, read};
-use loschmidt_core::values::Values;
 use loschmidt_core::{Arithmetic, Executor, Fault, FaultKind};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Fewest particles worth a task of their own: about 50 µs of work.
-const GRAIN: usize = 128;
+const PARTICLES: usize = 128;
 
 /// Length of the list of neighbours; a longer one is summed in pieces.
 const LIST: usize = 128;
@@ -134,7 +135,7 @@ impl Executor for Rayon {
         let mut rest = set.operands(P::READ, P::WRITE);
         let mut parts: Vec<Operands<'_, A::Word>> = Vec::new();
         while !rest.is_empty() {
-            let many = rest.len().min(GRAIN);
+            let many = rest.len().min(PARTICLES);
             let (first, others) = rest.split_at(many);
             parts.push(first);
             rest = others;
@@ -150,16 +151,15 @@ impl Executor for Rayon {
         out: &mut [A::Word],
     ) -> Result<(), Fault> {
         let term = term_count::<P, D>();
-        let parts = out.chunks_mut(GRAIN * term).enumerate().collect();
+        let grain = grain(pass, to);
+        let parts = out.chunks_mut(PARTICLES * term).enumerate().collect();
         self.for_parts(parts, |(n, out): (usize, &mut [A::Word])| {
             let mut first: Option<Fault> = None;
             for (k, out) in out.chunks_exact_mut(term).enumerate() {
-                let i = n * GRAIN + k;
-                let mut sum = P::Term::<A::Word>::from_fn(|k| out[k]);
+                let i = n * PARTICLES + k;
+                let mut sum: P::Term<A::Sum> = empty::<A, _>(grain);
                 let result = gather_listed(pass, to, i, from, &mut sum);
-                for (k, out) in out.iter_mut().enumerate() {
-                    *out = sum.get(k);
-                }
+                add::<A, _>(&sum, out);
                 if let Err(kind) = result {
                     let fault = Fault::new(kind, to.id[i]);
                     first = Some(first.map_or(fault, |other| other.first(fault)));
@@ -178,7 +178,7 @@ fn gather_listed<A: Arithmetic, P: PairPass<D>, const D: usize>(
     to: &Targets<'_, A, D>,
     i: usize,
     from: &Sources<'_, A, D>,
-    sum: &mut P::Term<A::Word>,
+    sum: &mut P::Term<A::Sum>,
 ) -> Result<(), FaultKind> {
     let x_i = &to.position[i];
     let read_i = read(to.read, i);

@@ -124,8 +124,7 @@ pub trait Simulation: Send {
     /// or two; no bit depends on it.
     fn release(&mut self);
     /// What the pair sums so far were made with: an instruction set, `serial` for the plain
-    /// traversal (in the other executors, and in floating point, whose sums have an order), or
-    /// both.
+    /// traversal (in the other executors, and where a sweep could not hold its range), or both.
     fn backend(&self) -> String;
     /// The threads that take the steps, where there are others than the caller's.
     fn pool(&self) -> Option<Rayon>;

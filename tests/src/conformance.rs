@@ -18,28 +18,28 @@ use crate::program::{backends, fast, serial, threads};
 use crate::small::Scheme;
 use loschmidt_core::fields::{Side, words_each};
 use loschmidt_core::neighbours::{Cells, Grid};
-use loschmidt_core::number::Whole;
+use loschmidt_core::number::Quantity;
 use loschmidt_core::owned::to_quanta;
 use loschmidt_core::set::Set;
 use loschmidt_core::{
-    Clock, Diagnostics, Digest, Fault, Filtered, Fixed, Model, Reversibility, Serial, Standard,
-    Symplectic, System,
+    Arithmetic, Clock, Diagnostics, Digest, Fault, Filtered, Fixed, Model, Reversibility, Serial,
+    Standard, Symplectic, System,
 };
 use loschmidt_runner::scene::{self, Dimension, InitialState, Scene};
 use loschmidt_runner::{BuildError, Options, Simulation, setup, simulate};
 
 /// A model on vectors, stepped by the core alone.
 #[derive(Debug)]
-pub struct Plain<M, const D: usize> {
+pub struct Plain<M, const D: usize, A: Arithmetic = Fixed> {
     model: M,
     id: [Vec<u64>; 2],
-    memory: [Vec<Whole>; 2],
+    memory: [Vec<A::Word>; 2],
     start: [Vec<u32>; 2],
     order: [Vec<u32>; 2],
     clock: Clock,
 }
 
-impl<M: Model<Fixed, D>, const D: usize> Plain<M, D> {
+impl<A: Arithmetic, M: Model<A, D>, const D: usize> Plain<M, D, A> {
     /// With these particles and walls; not yet initialised.
     ///
     /// # Panics
@@ -48,7 +48,7 @@ impl<M: Model<Fixed, D>, const D: usize> Plain<M, D> {
     pub fn new(model: M, initial: &InitialState) -> Self {
         let counts = [initial.fluid.len(), initial.wall.len()];
         let buckets = model.grids().map(Grid::buckets);
-        let words = |side, count| vec![Whole::ZERO; count * words_each(M::FIELDS, side, D)];
+        let words = |side, count| vec![A::Word::ZERO; count * words_each(M::FIELDS, side, D)];
         let mut plain = Self {
             model,
             id: [(0..counts[0] as u64).collect(), vec![0; counts[1]]],
@@ -62,9 +62,12 @@ impl<M: Model<Fixed, D>, const D: usize> Plain<M, D> {
         };
         let scale = plain.model.scale();
         let quanta = |x: [f64; 3]| std::array::from_fn::<f64, D, _>(|d| x[d]);
-        let length =
-            |x: &[f64; 3]| to_quanta(quanta(*x), scale.length_quantum()).expect("in range");
-        let speed = |v: &[f64; 3]| to_quanta(quanta(*v), scale.speed_quantum()).expect("in range");
+        let length = |x: &[f64; 3]| {
+            to_quanta::<A::Length, D>(quanta(*x), scale.length_quantum()).expect("in range")
+        };
+        let speed = |v: &[f64; 3]| {
+            to_quanta::<A::Speed, D>(quanta(*v), scale.speed_quantum()).expect("in range")
+        };
         let (_, mut system) = plain.parts();
         let positions = system.particles.position_mut().iter_mut();
         positions
@@ -86,7 +89,7 @@ impl<M: Model<Fixed, D>, const D: usize> Plain<M, D> {
     ///
     /// # Panics
     /// Never: the memory was made for the fields.
-    pub fn parts(&mut self) -> (&M, System<'_, Fixed, D>) {
+    pub fn parts(&mut self) -> (&M, System<'_, A, D>) {
         let [id, wall_id] = &mut self.id;
         let [memory, wall_memory] = &mut self.memory;
         let [start, wall_start] = &mut self.start;
@@ -126,7 +129,7 @@ trait Run {
     fn measure(&mut self) -> Result<Diagnostics, Fault>;
 }
 
-impl<M: Model<Fixed, D>, const D: usize> Run for Plain<M, D> {
+impl<A: Arithmetic, M: Model<A, D>, const D: usize> Run for Plain<M, D, A> {
     fn advance(&mut self, steps: u64) -> Result<(), Fault> {
         let (model, mut system) = self.parts();
         (0..steps).try_for_each(|_| model.step(&mut system, &Serial))
@@ -210,12 +213,12 @@ pub fn executors() -> Vec<Options> {
 ///
 /// # Panics
 /// If there can be no such simulation.
-pub fn check<M: Model<Fixed, D>, const D: usize>(
+pub fn check<A: Arithmetic, M: Model<A, D>, const D: usize>(
     model: impl Fn() -> M,
     initial: &InitialState,
     steps: &[u64],
 ) -> Result<(), String> {
-    let mut plain = Plain::new(model(), initial);
+    let mut plain = Plain::<M, D, A>::new(model(), initial);
     let reference = trace(plain.initialise().map(|()| plain), steps);
     if reference.fault.is_none() && M::REVERSIBILITY == Reversibility::BitExact {
         let home = reference.digests.first();
@@ -224,7 +227,7 @@ pub fn check<M: Model<Fixed, D>, const D: usize>(
         }
     }
     for options in executors() {
-        let simulation = match simulate(model(), initial, &options) {
+        let simulation = match simulate::<A, M, D>(model(), initial, &options) {
             Ok(simulation) => Ok(simulation),
             Err(BuildError::Fault(fault)) => Err(fault),
             Err(other) => panic!("{other}"),
@@ -251,7 +254,7 @@ pub fn check<M: Model<Fixed, D>, const D: usize>(
 ///
 /// # Errors
 /// The first difference.
-pub fn check_scheme<M: Scheme<Fixed, D>, const D: usize>(
+pub fn check_scheme<A: Arithmetic, M: Scheme<A, D>, const D: usize>(
     scene: &Scene,
     initial: &InitialState,
     steps: &[u64],
@@ -268,26 +271,30 @@ pub fn check_scheme<M: Scheme<Fixed, D>, const D: usize>(
 ///
 /// # Panics
 /// If the model of the scene is not one of water.
-pub fn check_scene(scene: &Scene, initial: &InitialState, steps: &[u64]) -> Result<(), String> {
+pub fn check_scene<A: Arithmetic>(
+    scene: &Scene,
+    initial: &InitialState,
+    steps: &[u64],
+) -> Result<(), String> {
     use scene::Model as M;
     match (&scene.model, scene.dimension) {
         (M::Symplectic, Dimension::Two) => {
-            check_scheme::<Symplectic<Fixed, 2>, 2>(scene, initial, steps)
+            check_scheme::<A, Symplectic<A, 2>, 2>(scene, initial, steps)
         }
         (M::Symplectic, Dimension::Three) => {
-            check_scheme::<Symplectic<Fixed, 3>, 3>(scene, initial, steps)
+            check_scheme::<A, Symplectic<A, 3>, 3>(scene, initial, steps)
         }
         (M::Standard, Dimension::Two) => {
-            check_scheme::<Standard<Fixed, 2>, 2>(scene, initial, steps)
+            check_scheme::<A, Standard<A, 2>, 2>(scene, initial, steps)
         }
         (M::Standard, Dimension::Three) => {
-            check_scheme::<Standard<Fixed, 3>, 3>(scene, initial, steps)
+            check_scheme::<A, Standard<A, 3>, 3>(scene, initial, steps)
         }
         (M::Filtered, Dimension::Two) => {
-            check_scheme::<Filtered<Fixed, 2>, 2>(scene, initial, steps)
+            check_scheme::<A, Filtered<A, 2>, 2>(scene, initial, steps)
         }
         (M::Filtered, Dimension::Three) => {
-            check_scheme::<Filtered<Fixed, 3>, 3>(scene, initial, steps)
+            check_scheme::<A, Filtered<A, 3>, 3>(scene, initial, steps)
         }
         (other, _) => panic!("{other:?} is no model of water"),
     }
@@ -327,7 +334,7 @@ macro_rules! conformance {
         fn $name() {
             let scene = $crate::program::scene($scene, &[$($set),*]);
             let initial = $crate::conformance::disordered(&scene, 1);
-            $crate::conformance::check_scheme::<$model, _>(&scene, &initial, &[1, 2, 12])
+            $crate::conformance::check_scheme::<_, $model, _>(&scene, &initial, &[1, 2, 12])
                 .unwrap_or_else(|difference| panic!("{difference}"));
         }
     )+};

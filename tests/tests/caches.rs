@@ -6,7 +6,7 @@ use loschmidt_core::number::{Arithmetic, Quantity, Word};
 use loschmidt_core::schemes::wcsph::{DENSITY, FIXED_DENSITY, PRESSURE, Wall};
 use loschmidt_core::{Clock, Fixed, Float, Model, Serial, Standard, Symplectic};
 use loschmidt_runner::{ExecutorKind, Options, Player, Points};
-use loschmidt_tests::program::{player, scene, serial, threads};
+use loschmidt_tests::program::{float, player, scene, serial, threads};
 use loschmidt_tests::small::{Recipe, Scheme, Small, conservative, dam_2d, dam_3d, measure, words};
 
 const STEPS: u64 = 30;
@@ -176,7 +176,7 @@ fn nothing_that_is_done_between_steps_changes_a_bit_of_a_players_run() {
         "integrator=pefrl",
     ] {
         let scene = scene("dam-break", &["particle_spacing=0.1", set]);
-        for options in [serial(), fast] {
+        for options in [serial(), fast, float(fast)] {
             let run = |between: Between| {
                 let mut player = player(scene.clone(), options);
                 let mut digests = Vec::new();

@@ -3,7 +3,7 @@
 
 use loschmidt_core::integrator::STORMER_VERLET;
 use loschmidt_core::schemes::wcsph::Gravity;
-use loschmidt_core::{Fault, Filtered, Fixed, Parameters, Standard, Symplectic};
+use loschmidt_core::{Arithmetic, Fault, Filtered, Fixed, Float, Parameters, Standard, Symplectic};
 use loschmidt_runner::fast::Backend;
 use loschmidt_runner::scene::{InitialState, Scene};
 use loschmidt_runner::{ArithmeticKind, Options, Player};
@@ -30,6 +30,12 @@ conformance! {
         ["particle_spacing=0.04", "cfl=0.05", "model=standard"];
     standard_with_dummies_in_space: Standard<Fixed, 3>, "dam-break-3d",
         ["particle_spacing=0.05", "cfl=0.05", "model=standard", "wall_model=dummy"];
+    floating_in_space: Symplectic<Float, 3>, "dam-break-3d",
+        ["particle_spacing=0.04", "cfl=0.05"];
+    floating_with_dummies_in_the_plane: Symplectic<Float, 2>, "dam-break",
+        ["particle_spacing=0.02", "cfl=0.05", "wall_model=dummy"];
+    floating_standard_in_the_plane: Standard<Float, 2>, "dam-break",
+        ["particle_spacing=0.02", "cfl=0.05", "model=standard"];
     // Twelve steps and three filterings, one of them in the last.
     filtered_in_the_plane: Filtered<Fixed, 2>, "dam-break",
         ["particle_spacing=0.02", "cfl=0.05", "turnaround=", "end=1",
@@ -62,8 +68,19 @@ fn digests(
     Ok(found)
 }
 
+fn check_in<A: Arithmetic>(scene: &Scene, initial: &InitialState, steps: &[u64]) {
+    let difference = check_scene::<A>(scene, initial, steps);
+    difference.unwrap_or_else(|difference| panic!("{difference}"));
+}
+
 fn check(scene: &Scene, initial: &InitialState, steps: &[u64]) {
-    check_scene(scene, initial, steps).unwrap_or_else(|difference| panic!("{difference}"));
+    check_in::<Fixed>(scene, initial, steps);
+}
+
+/// In floating point too: its sums have no order either.
+fn check_both(scene: &Scene, initial: &InitialState, steps: &[u64]) {
+    check(scene, initial, steps);
+    check_in::<Float>(scene, initial, steps);
 }
 
 #[test]
@@ -71,13 +88,13 @@ fn on_a_disordered_dam_break_in_the_plane() {
     // 7,200 particles: several parts for several threads.
     let set = ["particle_spacing=0.016666666666666666", "cfl=0.05"];
     let scene = scene("dam-break", &set);
-    check(&scene, &disordered(&scene, 1), &[1, 2, 25]);
+    check_both(&scene, &disordered(&scene, 1), &[1, 2, 25]);
 }
 
 #[test]
 fn on_a_disordered_dam_break_in_the_plane_for_many_steps() {
     let scene = scene("dam-break", &["particle_spacing=0.05", "cfl=0.05"]);
-    check(&scene, &disordered(&scene, 2), &[1, 2, 25, 500]);
+    check_both(&scene, &disordered(&scene, 2), &[1, 2, 25, 500]);
 }
 
 #[test]
@@ -104,7 +121,7 @@ fn with_dummy_walls_every_integrator_and_the_standard_scheme() {
         for set in ["model=standard", "fluid.anti_clump_pressure=1e4"] {
             let set = ["particle_spacing=0.1", "wall_model=dummy", set];
             let scene = scene(name, &set);
-            check(&scene, &disordered(&scene, 5), &[1, 2, 25]);
+            check_both(&scene, &disordered(&scene, 5), &[1, 2, 25]);
         }
     }
 }
@@ -126,12 +143,17 @@ fn where_the_numbers_end_the_same_particle_is_named_in_the_same_step() {
     let scene = scene("dam-break", &["particle_spacing=0.05", "cfl=2.0"]);
     let initial = scene.initial_state().unwrap();
     assert!(digests(&scene, &initial, threads(2), &[500]).is_err());
-    check(&scene, &initial, &[500]);
+    check_both(&scene, &initial, &[500]);
 }
 
 /// Within a step the stage that comes first is the one whose fault is told, whatever the ids.
 #[test]
 fn of_two_faults_in_one_step_the_one_of_the_earlier_stage_is_told() {
+    the_earlier_of_two_faults_is_told::<Fixed>();
+    the_earlier_of_two_faults_is_told::<Float>();
+}
+
+fn the_earlier_of_two_faults_is_told<A: Arithmetic>() {
     let parameters = Parameters {
         // Half a metre per second and kick; less than 32 m, less than 2048 m/s.
         gravity: Gravity {
@@ -153,7 +175,7 @@ fn of_two_faults_in_one_step_the_one_of_the_earlier_stage_is_told() {
                 fluid_velocity: order.map(|i| particles[i].1).to_vec(),
                 ..InitialState::default()
             };
-            let model = || Symplectic::<Fixed, 2>::new(parameters).unwrap();
+            let model = || Symplectic::<A, 2>::new(parameters).unwrap();
             for looked_at in [&[1, 2, 3, 4][..], &[4]] {
                 conformance::check(model, &initial, looked_at).unwrap_or_else(|difference| {
                     panic!("step {n}, kick {kick}, order {order:?}, {looked_at:?}: {difference}")
@@ -168,7 +190,7 @@ fn a_crowd_and_a_crowd_that_is_just_allowed() {
     let scene = cloud_scene(2);
     for n in [2047u32, 2048, 2500] {
         let fluid: Vec<_> = (0..n).map(|i| [1e-6 * f64::from(i), 0.0, 0.0]).collect();
-        check(&scene, &cloud(fluid), &[1]);
+        check_both(&scene, &cloud(fluid), &[1]);
     }
 }
 
@@ -210,14 +232,15 @@ fn a_run_says_what_its_sums_were_made_with() {
         player.backend()
     };
     for at_work in backends() {
-        assert_eq!(backend(fast(at_work, 1)), at_work.name());
+        for arithmetic in [ArithmeticKind::Fixed, ArithmeticKind::Float] {
+            let options = Options {
+                arithmetic,
+                ..fast(at_work, 1)
+            };
+            assert_eq!(backend(options), at_work.name(), "{arithmetic:?}");
+        }
     }
     assert_eq!(backend(threads(2)), "serial");
-    let float = Options {
-        arithmetic: ArithmeticKind::Float,
-        ..fast(Backend::best(), 2)
-    };
-    assert_eq!(backend(float), "serial");
 }
 
 fn cloud_scene(dimension: usize) -> Scene {
@@ -270,7 +293,8 @@ proptest! {
         if let Some(far) = flyer {
             points.push([-far, far, 0.0]);
         }
-        let difference = check_scene(&scene, &cloud(points), &[1, 2, 25]);
-        prop_assert_eq!(difference, Ok(()));
+        let cloud = cloud(points);
+        prop_assert_eq!(check_scene::<Fixed>(&scene, &cloud, &[1, 2, 25]), Ok(()));
+        prop_assert_eq!(check_scene::<Float>(&scene, &cloud, &[1, 12]), Ok(()));
     }
 }

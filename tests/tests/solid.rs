@@ -1,7 +1,7 @@
 //! Elastic bodies return to their first bit, on every executor, and keep what they must.
 
 use loschmidt_core::schemes::solid::{Material, Midpoint, Part, ShearEnergy, Solid};
-use loschmidt_core::{Diagnostics, Fixed, Model, Reversibility, Serial};
+use loschmidt_core::{Diagnostics, Fixed, Float, Model, Reversibility, Serial};
 use loschmidt_tests::bodies::{SPACING, block, body, free_body, material, stir};
 use loschmidt_tests::conformance;
 use loschmidt_tests::permitted;
@@ -16,6 +16,8 @@ fn in_the_plane_every_executor_leaves_the_bits_of_the_plain_steps() {
         stir::<2>(&mut state, 0.4, 0.5, 1);
         let model = || Solid::<Fixed, 2>::new(parameters.clone()).unwrap();
         conformance::check(model, &state, &[1, 2, 25]).unwrap_or_else(|e| panic!("{e}"));
+        let model = || Solid::<Float, 2>::new(parameters.clone()).unwrap();
+        conformance::check(model, &state, &[1, 12]).unwrap_or_else(|e| panic!("{e}"));
     }
 }
 

@@ -7,7 +7,7 @@ use loschmidt_core::schemes::solid::{
     DISTORTION, FluidParameters, HELD, Law, Material, Motion, Part, Relaxation, Relaxing,
     ShearEnergy, Viscous, WallVelocity, whole_metric,
 };
-use loschmidt_core::{Diagnostics, Fixed, Model, Reversibility, Serial};
+use loschmidt_core::{Diagnostics, Fixed, Float, Model, Reversibility, Serial};
 use loschmidt_runner::scene::{GivenField, InitialState};
 use loschmidt_tests::bodies::{SPACING, block, free_body, material, stir};
 use loschmidt_tests::conformance::{self, Plain};
@@ -105,6 +105,8 @@ fn every_executor_leaves_the_bits_of_the_plain_steps() {
         let (parameters, state) = stirred([18, 14], relaxation, wall_velocity);
         let model = || Relaxing::<Fixed, 2>::viscous(parameters.clone()).unwrap();
         conformance::check(model, &state, &[1, 2, 25]).unwrap_or_else(|e| panic!("{e}"));
+        let model = || Relaxing::<Float, 2>::viscous(parameters.clone()).unwrap();
+        conformance::check(model, &state, &[1, 12]).unwrap_or_else(|e| panic!("{e}"));
     }
     let (parameters, state) = stirred([9, 9, 8], Relaxation::Exact, WallVelocity::Mirrored);
     let model = || Relaxing::<Fixed, 3>::viscous(parameters.clone()).unwrap();

@@ -6,7 +6,7 @@ use loschmidt_core::schemes::superfluid::{
     Superleak, WallPart,
 };
 use loschmidt_core::set::Set;
-use loschmidt_core::{Arithmetic, Diagnostics, FaultKind, Fixed, Model, Serial};
+use loschmidt_core::{Arithmetic, Diagnostics, FaultKind, Fixed, Float, Model, Serial};
 use loschmidt_runner::scene::InitialState;
 use loschmidt_tests::conformance::{self, Plain};
 use loschmidt_tests::helium::{SPACING, drop, stirred, wall_in};
@@ -104,6 +104,9 @@ fn in_a_vessel_every_executor_leaves_the_bits_of_the_plain_steps() {
     let state = vessel([5, 5, 4], 2.0, 2);
     let model = || Superfluid::<Fixed, 3>::new(filled(Operators::Renormalised)).unwrap();
     conformance::check(model, &state, &[1, 6]).unwrap_or_else(|e| panic!("{e}"));
+    let state = vessel([12, 9], 2.0, 7);
+    let model = || Superfluid::<Float, 2>::new(filled(Operators::Paper)).unwrap();
+    conformance::check(model, &state, &[1, 6]).unwrap_or_else(|e| panic!("{e}"));
     let state = vessel([12, 9], 1.0, 3);
     let model = || PaperSuperfluid::<Fixed, 2>::new(filled(Operators::Paper)).unwrap();
     conformance::check(model, &state, &[1, 2, 12]).unwrap_or_else(|e| panic!("{e}"));
@@ -112,10 +115,11 @@ fn in_a_vessel_every_executor_leaves_the_bits_of_the_plain_steps() {
 #[test]
 fn with_lid_heater_and_superleak_every_executor_leaves_the_bits_of_the_plain_steps() {
     let state = vessel([12, 9], 2.0, 4);
-    let model = || Friction::superfluid(furnished::<2>(Operators::Paper)).unwrap();
+    let model = || Friction::<Fixed, 2>::superfluid(furnished::<2>(Operators::Paper)).unwrap();
     conformance::check(model, &state, &[1, 2, 12]).unwrap_or_else(|e| panic!("{e}"));
     let state = vessel([5, 5, 4], 2.0, 5);
-    let model = || Friction::superfluid(furnished::<3>(Operators::Renormalised)).unwrap();
+    let model =
+        || Friction::<Fixed, 3>::superfluid(furnished::<3>(Operators::Renormalised)).unwrap();
     conformance::check(model, &state, &[1, 6]).unwrap_or_else(|e| panic!("{e}"));
     let state = vessel([12, 9], 2.0, 6);
     let normal = || {
@@ -123,7 +127,7 @@ fn with_lid_heater_and_superleak_every_executor_leaves_the_bits_of_the_plain_ste
         parameters.helium.normal_fraction = 1.0;
         parameters.helium.fraction_slope = 0.0;
         parameters.suction = true;
-        Friction::superfluid(parameters).unwrap()
+        Friction::<Fixed, 2>::superfluid(parameters).unwrap()
     };
     conformance::check(normal, &state, &[1, 2, 12]).unwrap_or_else(|e| panic!("{e}"));
 }

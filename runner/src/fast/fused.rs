@@ -19,11 +19,11 @@
 use super::backend::Work;
 use super::lanes::{Quad, ROW, Reals};
 use super::layout::{Crew, Layout, Strip};
-use super::memory::{Arguments, LIMIT, Memory, larger};
-use super::sweep::{Leg, Sums, add_received, contributors};
+use super::memory::{Arguments, LIMIT, Memory};
+use super::sweep::{Leg, Sums, Sweep, add_received, contributors};
 use loschmidt_core::fields::{IMPULSE, POSITION};
-use loschmidt_core::number::Quantity;
-use loschmidt_core::pairs::PairPass;
+use loschmidt_core::number::{Grain, Quantity, larger};
+use loschmidt_core::pairs::{PairPass, grain_under};
 use loschmidt_core::schemes::wcsph::{
     CONSTANT, DENSITY, DensityPass, Pressed, PressureFactor, PressurePass, Pull, Water,
 };
@@ -62,6 +62,8 @@ fn inner(strips: &Range<usize>, count: usize) -> Range<usize> {
 struct KickSums<'a, A: Arithmetic, const D: usize> {
     density: DensityPass,
     pressure: PressurePass,
+    /// What the terms of either are rounded to.
+    grains: [Grain; 2],
     factor: PressureFactor,
     pull: Pull<A, D>,
     own: A::Word,
@@ -84,9 +86,16 @@ impl Memory {
         particles: &mut Set<'_, A, D>,
     ) -> Result<bool, Fault> {
         let (view, [density, impulse]) = particles.lend([DENSITY, IMPULSE]);
-        let kick = KickSums {
-            density: water.density_pass(),
-            pressure: water.pressure_pass(),
+        let (density_pass, pressure_pass) = (water.density_pass(), water.pressure_pass());
+        let of_densities = PairPass::<D>::bound(&density_pass, &[]);
+        let of_impulses = |pressure| pressure_pass.bound(&Pressed::<f64, D> { pressure });
+        // How large pressures are is known when all densities are. Those before them were about as
+        // large: the grain is most likely the same.
+        let expected = of_impulses(self.pressure * duration.abs());
+        let mut kick = KickSums {
+            density: density_pass,
+            pressure: pressure_pass,
+            grains: [of_densities, expected].map(grain_under::<A>),
             factor: water.pressure_factor(duration),
             pull: water.pull(duration),
             own: water.own_density(),
@@ -94,20 +103,25 @@ impl Memory {
             constant: view.words(CONSTANT),
             position: view.vectors(POSITION),
         };
-        if PairPass::<D>::bound(&kick.density, &[]) >= LIMIT {
+        if of_densities >= LIMIT {
             return Ok(false);
         }
         let found = self.go(crew, &kick, density);
         if let Some(fault) = found.fault {
             return Err(fault);
         }
-        let pressed = Pressed::<f64, D> {
-            pressure: found.largest,
-        };
-        if kick.pressure.bound(&pressed) >= LIMIT {
+        self.pressure = found.largest / duration.abs();
+        let of_impulses = of_impulses(found.largest);
+        if of_impulses >= LIMIT {
             return Ok(false);
         }
-        self.go_on(crew, &kick);
+        let grain = grain_under::<A>(of_impulses);
+        if grain == kick.grains[1] {
+            self.go_on(crew, &kick);
+        } else {
+            kick.grains[1] = grain;
+            self.impulses_again(crew, &kick);
+        }
         self.gather(&kick, impulse.as_chunks_mut().0).map(|()| true)
     }
 
@@ -163,9 +177,30 @@ impl Memory {
                     strips,
                     words,
                     sums,
+                    grain: kick.grains[1],
                 });
             });
         }
+    }
+
+    /// All impulse sums, of pressures that are known: the grain was another than expected.
+    fn impulses_again<A: Arithmetic, const D: usize>(
+        &mut self,
+        crew: Crew,
+        kick: &KickSums<'_, A, D>,
+    ) {
+        let (layout, words) = (&self.layout, &self.words);
+        layout.for_parts(self.sums.iter_mut().collect(), |strips, [_, sums]| {
+            sums.clear(layout.rows_reached::<D>(&strips), D);
+            crew.backend.run(Sweep::<PressurePass, D> {
+                pass: &kick.pressure,
+                layout,
+                strips,
+                words,
+                sums,
+                grain: kick.grains[1],
+            });
+        });
     }
 
     /// The pull of gravity and what was received, for every particle.
@@ -188,7 +223,7 @@ impl Memory {
                         found.fault(Fault::new(FaultKind::TermRange, kick.id[place]));
                         continue;
                     };
-                    add_received(&mut sum, &from_parts, strip.slot + k);
+                    add_received::<A>(&mut sum, kick.grains[1], &from_parts, strip.slot + k);
                     impulse[place - from] = sum;
                 }
             }
@@ -218,7 +253,7 @@ fn finish<A: Arithmetic, const D: usize>(
     for (k, density) in density.iter_mut().enumerate() {
         let (place, slot) = (strip.place + k, strip.slot + k);
         let mut sum = [kick.own];
-        add_received(&mut sum, contributors, slot);
+        add_received::<A>(&mut sum, kick.grains[0], contributors, slot);
         *density = sum[0].plus(kick.constant[place]);
         match kick.factor.of(*density, kick.id[place]) {
             Ok(pressure) => {
@@ -255,6 +290,7 @@ impl<A: Arithmetic, const D: usize> Work for Going<'_, A, D> {
         seconds.prepare(reached.clone(), D);
         firsts.clear_some(layout.strips[self.strips.start].rows(), 1);
         let inner = inner(&self.strips, layout.strips.len() - 1);
+        let [fine, fine_impulses] = self.kick.grains;
         let (row_from, place_from) = (reached.start, layout.places_of(&self.strips).start);
         for s in self.strips.start..self.strips.end + 2 {
             // Cleared shortly before they are added to, while they are in the cache anyway.
@@ -269,10 +305,20 @@ impl<A: Arithmetic, const D: usize> Work for Going<'_, A, D> {
             let mut fresh = std::mem::take(&mut self.arguments[s % 3]);
             let known = std::mem::take(&mut self.arguments[(s + 1) % 3]);
             let words = (&*self.words, row_from);
-            let mut first =
-                Leg::<DensityPass, D>::new(&self.kick.density, layout, now, (&[], 0), firsts);
-            let mut second =
-                Leg::<PressurePass, D>::new(&self.kick.pressure, layout, past, words, seconds);
+            let mut first = Leg::<DensityPass, D>::new(
+                &self.kick.density,
+                layout,
+                now,
+                (&[], 0),
+                (firsts, fine),
+            );
+            let mut second = Leg::<PressurePass, D>::new(
+                &self.kick.pressure,
+                layout,
+                past,
+                words,
+                (seconds, fine_impulses),
+            );
             if fresh.len() < first.arguments() {
                 fresh.resize(first.arguments(), Reals::default());
             }
@@ -300,6 +346,7 @@ struct Rest<'a, const D: usize> {
     strips: Range<usize>,
     words: &'a [Reals],
     sums: &'a mut Sums,
+    grain: Grain,
 }
 
 impl<const D: usize> Work for Rest<'_, D> {
@@ -310,7 +357,8 @@ impl<const D: usize> Work for Rest<'_, D> {
         let inner = inner(&self.strips, layout.strips.len() - 1);
         for s in self.strips.filter(|s| !inner.contains(s)) {
             let words = (self.words, 0);
-            Leg::<PressurePass, D>::new(self.pass, layout, Some(s), words, self.sums).alone(simd);
+            let sums = (&mut *self.sums, self.grain);
+            Leg::<PressurePass, D>::new(self.pass, layout, Some(s), words, sums).alone(simd);
         }
     }
 }

@@ -22,9 +22,6 @@ pub(super) struct Reals(pub [f64; ROW]);
 #[repr(align(32))]
 pub(super) struct Words(pub [i64; ROW]);
 
-/// 3·2^51: see [`loschmidt_core::number`].
-const ROUNDER: f64 = 6_755_399_441_055_744.0;
-
 /// The operations of an instruction set on four numbers.
 pub(super) trait Quad: Copy + Send + Sync {
     /// Four doubles.
@@ -46,8 +43,9 @@ pub(super) trait Quad: Copy + Send + Sync {
     fn positive_part(self, a: Self::R) -> Self::R;
     /// Lanes of a where that of x is below that of the limit, else 0.
     fn where_below(self, a: Self::R, x: Self::R, limit: Self::R) -> Self::R;
-    /// The nearest integers, ties to even, for magnitudes below 2^51.
-    fn round(self, a: Self::R) -> Self::I;
+    /// The nearest numbers of grains, ties to even, for magnitudes below 2^51 of them; `rounder` is
+    /// that of the [grain](loschmidt_core::number::Grain).
+    fn round(self, a: Self::R, rounder: Self::R) -> Self::I;
     fn plus(self, a: Self::I, b: Self::I) -> Self::I;
     fn minus(self, a: Self::I, b: Self::I) -> Self::I;
     /// True where some lane of a is below its lane of b.
@@ -123,9 +121,10 @@ impl Quad for Plain {
         lanewise!(a, keep, |a, keep| if keep { a } else { 0.0 })
     }
     #[inline(always)]
-    fn round(self, a: Self::R) -> Self::I {
-        lanewise!(a, a, |a: f64, _| ((a + ROUNDER).to_bits() as i64)
-            .wrapping_sub(ROUNDER.to_bits() as i64))
+    fn round(self, a: Self::R, rounder: Self::R) -> Self::I {
+        lanewise!(a, rounder, |a: f64, rounder: f64| {
+            ((a + rounder).to_bits() as i64).wrapping_sub(rounder.to_bits() as i64)
+        })
     }
     #[inline(always)]
     fn plus(self, a: Self::I, b: Self::I) -> Self::I {
@@ -141,10 +140,10 @@ impl Quad for Plain {
     }
 }
 
-/// The operations of AVX2, which AVX-512 includes; `round` is each one's own.
+/// The operations of AVX2, which AVX-512 includes.
 #[cfg(target_arch = "x86_64")]
 macro_rules! quad_of_avx {
-    ($token:ty, |$simd:ident, $a:ident| $round:expr) => {
+    ($token:ty) => {
         impl Quad for $token {
             type R = pulp::f64x4;
             type I = pulp::i64x4;
@@ -202,9 +201,9 @@ macro_rules! quad_of_avx {
                 pulp::cast(self.avx._mm256_and_pd(pulp::cast(a), keep))
             }
             #[inline(always)]
-            fn round(self, a: Self::R) -> Self::I {
-                let ($simd, $a) = (self, a);
-                $round
+            fn round(self, a: Self::R, rounder: Self::R) -> Self::I {
+                let sum = self.add_f64x4(a, rounder);
+                self.wrapping_sub_i64x4(pulp::cast(sum), pulp::cast(rounder))
             }
             #[inline(always)]
             fn plus(self, a: Self::I, b: Self::I) -> Self::I {
@@ -226,17 +225,9 @@ macro_rules! quad_of_avx {
 }
 
 #[cfg(target_arch = "x86_64")]
-quad_of_avx!(pulp::x86::V3, |simd, a| {
-    let rounder = simd.splat_f64x4(ROUNDER);
-    let bits: pulp::i64x4 = pulp::cast(simd.add_f64x4(a, rounder));
-    simd.wrapping_sub_i64x4(bits, simd.splat_i64x4(ROUNDER.to_bits() as i64))
-});
-
-// Rounds as the processor is set to: to nearest, ties to even, as every Rust program runs.
+quad_of_avx!(pulp::x86::V3);
 #[cfg(target_arch = "x86_64")]
-quad_of_avx!(pulp::x86::V4, |simd, a| {
-    pulp::cast(simd.avx512dq._mm256_cvtpd_epi64(pulp::cast(a)))
-});
+quad_of_avx!(pulp::x86::V4);
 
 /// Four doubles with the instructions that work on them: what a pair term is evaluated in.
 #[derive(Clone, Copy)]

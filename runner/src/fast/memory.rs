@@ -5,6 +5,7 @@ use super::layout::Layout;
 use super::sweep::Sums;
 use super::walls::NearWalls;
 use loschmidt_core::Arithmetic;
+use loschmidt_core::number::larger;
 use loschmidt_core::pairs::{PairPass, Targets, read_count};
 use loschmidt_core::set::read;
 use loschmidt_core::values::Values;
@@ -22,17 +23,13 @@ pub(super) struct Memory {
     pub sums: Vec<[Sums; 2]>,
     /// Arguments of the terms of three strips, for each part.
     pub arguments: Vec<Arguments>,
+    /// Largest magnitude of a pressure in the last kick of water, for a kick of one second.
+    pub pressure: f64,
     pub walls: NearWalls,
 }
 
 /// Terms of this magnitude and more, in quanta, are out of range: 2^51.
 pub(super) const LIMIT: f64 = (1u64 << 51) as f64;
-
-/// The larger magnitude, and a NaN before all: as integers the bits of magnitudes are in order.
-#[inline(always)]
-pub(super) fn larger(largest: f64, word: f64) -> f64 {
-    f64::from_bits(largest.to_bits().max(word.abs().to_bits()))
-}
 
 impl Memory {
     /// Copies what the pass reads into rows; returns the largest magnitudes.

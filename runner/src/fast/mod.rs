@@ -9,8 +9,11 @@
 //! A sweep does not look at single terms for their range; instead the pass bounds all of them from
 //! the largest words ([`PairPass::bound`]). Where the bound does not hold, or some particle has
 //! more candidates than an integer sum is guaranteed to hold, the sum is taken by the plain
-//! traversal of the core, which decides exactly and names the particle. The same for floating-point
-//! states, and for strips of more particles than a list can name (16,000 in the plane).
+//! traversal of the core, which decides exactly and names the particle. The same for strips of more
+//! particles than a list can name (16,000 in the plane).
+//!
+//! Floating-point states take the same way: their sums are integers too, of
+//! [finer grains](loschmidt_core::rounding), and so have the same bits as those of the reference.
 
 mod awake;
 mod backend;
@@ -33,8 +36,9 @@ use loschmidt_core::fields::{IMPULSE, POSITION, VELOCITY};
 use loschmidt_core::integrator::Stage;
 use loschmidt_core::model::{Model, Relax};
 use loschmidt_core::neighbours::{Cells, Grid};
+use loschmidt_core::number::Grain;
 use loschmidt_core::operands::Operands;
-use loschmidt_core::pairs::{PairPass, Sources, Targets, term_count};
+use loschmidt_core::pairs::{PairPass, Sources, Targets, grain_under, term_count};
 use loschmidt_core::points::{PointPass, visit};
 use loschmidt_core::schemes::wcsph::{Filtered, Symplectic};
 use loschmidt_core::set::Set;
@@ -146,6 +150,7 @@ impl Fast {
         &self,
         memory: &mut Memory,
         pass: &P,
+        grain: Grain,
         out: &mut [A::Word],
     ) {
         let term = term_count::<P, D>();
@@ -165,6 +170,7 @@ impl Fast {
                 strips,
                 words,
                 sums,
+                grain,
             });
         });
         let sums: Vec<_> = sums.iter().map(|[sums, _]| sums).collect();
@@ -173,7 +179,7 @@ impl Fast {
             for strip in &layout.strips[strips] {
                 let from_parts = contributors(term, &sums, strip);
                 for (slot, out) in (strip.slot..strip.slot + strip.len).zip(&mut out) {
-                    add_received(out, &from_parts, slot);
+                    add_received::<A>(out, grain, &from_parts, slot);
                 }
             }
         });
@@ -194,12 +200,9 @@ impl Executor for Fast {
         cells: &mut Cells<'_>,
         for_others: bool,
     ) {
-        // Sweeps are written for integer sums.
-        if A::EXACT {
-            let reach = grid.reach() as f64;
-            self.memory().layout.update(reach, particles, self.crew);
-        }
-        if for_others || !A::EXACT {
+        let reach = grid.reach() as f64;
+        self.memory().layout.update(reach, particles, self.crew);
+        if for_others {
             cells.sort(grid, particles.position());
         }
     }
@@ -249,7 +252,7 @@ impl Executor for Fast {
     ) -> Result<(), Fault> {
         let mut memory = self.memory();
         let memory = &mut *memory;
-        if !A::EXACT || !memory.layout.is_of(to.position) {
+        if !memory.layout.is_of(to.position) {
             self.plain.fetch_or(to.same_set, Ordering::Relaxed);
             return self.rayon.sum(pass, to, from, out);
         }
@@ -258,13 +261,14 @@ impl Executor for Fast {
             return walls.sum(layout, pass, to, from, out);
         }
         let largest = memory.load::<A, P, D>(to);
-        let in_range = pass.bound(&largest) < LIMIT;
+        let bound = pass.bound(&largest);
+        let in_range = bound < LIMIT;
         if !in_range || memory.layout.most_candidates > MAX_NEIGHBOURS as usize {
             self.plain.store(true, Ordering::Relaxed);
             return self.plain(pass, to, from, out);
         }
         self.swept.store(true, Ordering::Relaxed);
-        self.sweep::<A, P, D>(memory, pass, out);
+        self.sweep::<A, P, D>(memory, pass, grain_under::<A>(bound), out);
         Ok(())
     }
 }
@@ -288,7 +292,6 @@ impl Drive for Fast {
     ) -> Result<(), Fault> {
         // In space the arguments of a strip's neighbourhood are too many to be kept in a cache.
         if D == 2
-            && A::EXACT
             && let (Stage::Kick(c), Some(scheme)) = (stage, symplectic::<A, M, D>(model))
             && !scheme.water().has_dummies(system)
         {

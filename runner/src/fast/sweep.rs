@@ -14,7 +14,7 @@ use super::backend::Work;
 use super::lanes::{Pack, Quad, ROW, Reals, Words};
 use super::layout::{Layout, Strip};
 use super::meets::{Meeting, Meets, step};
-use loschmidt_core::number::Accumulate;
+use loschmidt_core::number::{Arithmetic, Grain, PairSum};
 use loschmidt_core::pairs::{PairPass, Parity, read_count, term_count};
 use loschmidt_core::values::Values;
 use std::ops::Range;
@@ -82,14 +82,19 @@ pub(super) fn contributors<'a>(
 
 /// Adds what a slot has received in all parts.
 #[inline(always)]
-pub(super) fn add_received<W: Accumulate>(sum: &mut [W], contributors: &[&Sums], slot: usize) {
-    let components = sum.len();
-    for (k, sum) in sum.iter_mut().enumerate() {
+pub(super) fn add_received<A: Arithmetic>(
+    words: &mut [A::Word],
+    grain: Grain,
+    contributors: &[&Sums],
+    slot: usize,
+) {
+    let components = words.len();
+    for (k, word) in words.iter_mut().enumerate() {
         let mut received = 0i64;
         for sums in contributors {
             received = received.wrapping_add(sums.of(components, slot, k));
         }
-        *sum = sum.plus_quanta(received);
+        *word = A::Sum::grains_added_to(received, grain, *word);
     }
 }
 
@@ -101,6 +106,8 @@ pub(super) fn add_received<W: Accumulate>(sum: &mut [W], contributors: &[&Sums],
 /// pair computed addresses.
 pub(super) struct Leg<'a, P, const D: usize> {
     pass: &'a P,
+    /// Rounds to the grain of the sums.
+    rounder: f64,
     strip: Strip,
     meets: &'a [Meeting],
     x: &'a [Reals],
@@ -152,7 +159,7 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
         layout: &'a Layout,
         s: Option<usize>,
         (words, words_from): (&'a [Reals], usize),
-        sums: &'a mut Sums,
+        (sums, grain): (&'a mut Sums, Grain),
     ) -> Self {
         let nobody = (Strip::default(), const { &Meets::new() });
         let (strip, meets) = s.map_or(nobody, |s| (layout.strips[s], &layout.meets[s]));
@@ -189,6 +196,7 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
         }
         Self {
             pass,
+            rounder: grain.rounder(),
             strip,
             meets: meets.list(),
             x,
@@ -249,8 +257,9 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
             |c| Pack::new(simd, simd.load(unsafe { *words_j.add(c) })),
         );
         let term = self.pass.term(&x_ij, argument, &read_i, &read_j);
+        let rounder = simd.splat(self.rounder);
         for c in 0..Self::TERM {
-            let rounded = simd.round(term.get(c).row);
+            let rounded = simd.round(term.get(c).row, rounder);
             // SAFETY: there are TERM rows of sums, and as many in a record after its head. No other
             // reference to either is in use.
             let (sum, received) = unsafe { (&mut *sums.add(c), &mut *record.add(Self::HEAD + c)) };
@@ -417,6 +426,7 @@ pub(super) struct Sweep<'a, P, const D: usize> {
     pub strips: Range<usize>,
     pub words: &'a [Reals],
     pub sums: &'a mut Sums,
+    pub grain: Grain,
 }
 
 impl<P: PairPass<D>, const D: usize> Work for Sweep<'_, P, D> {
@@ -426,7 +436,8 @@ impl<P: PairPass<D>, const D: usize> Work for Sweep<'_, P, D> {
         let layout = self.layout;
         for s in self.strips {
             let words = (self.words, 0);
-            Leg::<P, D>::new(self.pass, layout, Some(s), words, self.sums).alone(simd);
+            let sums = (&mut *self.sums, self.grain);
+            Leg::<P, D>::new(self.pass, layout, Some(s), words, sums).alone(simd);
         }
     }
 }

@@ -6,8 +6,7 @@
 
 use super::layout::{Layout, key};
 use loschmidt_core::number::Quantity;
-use loschmidt_core::pairs::{Gathering, PairPass, Sources, Targets, term_count};
-use loschmidt_core::values::Values;
+use loschmidt_core::pairs::{Gathering, PairPass, Sources, Targets, add, empty, grain, term_count};
 use loschmidt_core::{Arithmetic, Fault};
 
 /// Who is near the walls.
@@ -47,19 +46,18 @@ impl NearWalls {
             self.of = Some(of);
         }
         let mut first: Option<Fault> = None;
+        let grain = grain(pass, to);
         let mut start = 0;
         for &(place, end) in &self.near {
             let walls = &self.walls[start..end as usize];
             start = end as usize;
             let place = place as usize;
-            let out = &mut out[place * term_count::<P, D>()..];
-            let mut sum = P::Term::<A::Word>::from_fn(|k| out[k]);
+            let out = &mut out[place * term_count::<P, D>()..][..term_count::<P, D>()];
+            let mut sum: P::Term<A::Sum> = empty::<A, _>(grain);
             let mut gathering = Gathering::new(pass, to, place, from, &mut sum);
             gathering.add(walls);
             let result = gathering.end();
-            for (k, out) in out.iter_mut().take(term_count::<P, D>()).enumerate() {
-                *out = sum.get(k);
-            }
+            add::<A, _>(&sum, out);
             if let Err(kind) = result {
                 let fault = Fault::new(kind, to.id[place]);
                 first = Some(first.map_or(fault, |other| other.first(fault)));
