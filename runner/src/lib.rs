@@ -22,6 +22,7 @@ mod drive;
 mod engine;
 mod executor;
 pub mod fast;
+pub mod figures;
 pub mod filter;
 pub mod frame;
 mod given;
@@ -39,7 +40,6 @@ pub mod scene;
 pub mod setup;
 pub mod simulation;
 mod storage;
-pub mod time_unit;
 pub mod totals;
 
 pub use deck::Deck;

@@ -3,6 +3,7 @@
 //! One run, or two of the same scene in different arithmetic. After a picture both are at the same
 //! step; that is where an interrupted export goes on.
 
+use super::camera::Views;
 use super::directory::{Movie, replace};
 use super::error::MovieError;
 use super::{MovieProgress, Schedule};
@@ -10,6 +11,7 @@ use crate::draw::{Look, Pane, draw};
 use crate::history::History;
 use crate::home::Home;
 use loschmidt_core::digest::hash;
+use loschmidt_runner::figures::count;
 use loschmidt_runner::output::Snapshot;
 use loschmidt_runner::output::series::{self, SeriesWriter};
 use loschmidt_runner::player::Return;
@@ -50,6 +52,7 @@ struct Strand {
 struct Export<'a> {
     strands: Vec<Strand>,
     home: Home,
+    views: Views,
     look: Look,
     schedule: Schedule,
     scene: [u8; 16],
@@ -125,10 +128,15 @@ impl<'a> Export<'a> {
                 player,
             });
         }
-        let (Some(home), Some(plan)) = (home, plan) else {
+        let (Some(mut home), Some(plan)) = (home, plan) else {
             return Err(MovieError::Run(loschmidt_runner::RunError::NoRows));
         };
+        let camera = movie.style.camera;
+        if let Some(rectangle) = camera.rectangle {
+            home.show_only(rectangle);
+        }
         Ok(Self {
+            views: Views::new(&camera, plan.back == plan.out),
             look: movie.style.look(&home),
             schedule: Schedule::new(&plan, movie.style.pictures),
             comes_home: plan.back == plan.out,
@@ -180,21 +188,21 @@ impl<'a> Export<'a> {
         } else {
             1
         };
-        let wanted = n >= movie.found();
+        let (wanted, total) = (n >= movie.found(), movie.style.pictures);
         let mut pictures: Vec<Points> = Vec::new();
         for strand in &mut self.strands {
             let player = &mut strand.player;
             let row = Row::measure(player, leg).map_err(|fault| fault_of(player, fault))?;
             strand.history.push((&row).into());
             strand.rows.push(row);
-            if wanted {
-                let mut points = Points::default();
-                player
-                    .points(&mut points)
-                    .map_err(|fault| fault_of(player, fault))?;
-                pictures.push(points);
-            }
+            let mut points = Points::default();
+            player
+                .points(&mut points)
+                .map_err(|fault| fault_of(player, fault))?;
+            pictures.push(points);
         }
+        self.views
+            .next(&mut self.home, &self.schedule, pictures.iter());
         movie.times.simulating += began.elapsed();
         if !wanted {
             return Ok(());
@@ -203,7 +211,7 @@ impl<'a> Export<'a> {
         let look = Look {
             turn: self.schedule.turn(n, movie.style.fps),
             caption: self.caption(n),
-            ..self.look.clone()
+            ..movie.style.camera.look(&self.look, n, total)
         };
         let panes: Vec<Pane<'_>> = self
             .strands
@@ -231,7 +239,7 @@ impl<'a> Export<'a> {
 
     /// What stands under the title: at the end, whether the first run is at home.
     fn caption(&mut self, n: usize) -> String {
-        let particles = self.strands[0].player.particles() as usize;
+        let particles = self.strands[0].player.particles();
         if self.comes_home && n + 1 == self.schedule.pictures {
             let exact = self.strands[0].player.compare_with_home().is_exact();
             return if exact {
@@ -240,7 +248,7 @@ impl<'a> Export<'a> {
                 "not home".to_owned()
             };
         }
-        format!("{} particles", with_commas(particles))
+        format!("{} particles", count(particles))
     }
 
     fn ending(&mut self) -> Ending {
@@ -277,7 +285,7 @@ impl<'a> Export<'a> {
             })?;
             replace(&movie.state_path(n), |file| snapshot.write(file))?;
         }
-        Ok(())
+        self.views.write(movie)
     }
 
     /// Takes the runs to where an earlier export kept them, and returns the first picture that is
@@ -299,7 +307,7 @@ impl<'a> Export<'a> {
         // There is one row for every picture.
         let belongs =
             (1..=movie.found()).contains(&measured) && self.schedule.step(measured - 1) == step;
-        if !same || !belongs {
+        if !same || !belongs || !self.views.read(&mut self.home, movie, measured) {
             return Ok(0);
         }
         for (strand, (snapshot, rows)) in self.strands.iter_mut().zip(loaded) {
@@ -334,17 +342,4 @@ fn fault_of(player: &Player, fault: loschmidt_core::Fault) -> MovieError {
         time: fault.step as f64 * player.scene().time_step(),
         fault,
     }
-}
-
-/// 5,000 for 5000.
-pub(super) fn with_commas(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -95,7 +95,7 @@ impl Host {
         report: impl Fn(u64, Report) + Send + 'static,
     ) {
         match effect {
-            Effect::Deck(command) => self.send(command),
+            Effect::Deck(command) => self.obey(session, command),
             Effect::Open(request) => match request.opening(self.options) {
                 Ok(opening) => self.open(session, request, opening, report),
                 Err(why) => {
@@ -113,6 +113,12 @@ impl Host {
         }
     }
 
+    /// Passes on what the user wants.
+    fn obey(&self, session: &mut Session, command: Command) {
+        session.acted |= !matches!(command, Command::Pace(_) | Command::Reuse(_));
+        self.send(command);
+    }
+
     fn send(&self, command: Command) {
         if let Some(deck) = &self.deck {
             deck.send(command);
@@ -124,24 +130,27 @@ impl Host {
         if let Some(stage) = &session.stage {
             self.send(Command::Keep {
                 path: free_directory(&stage.home.name),
-                rows: stage.track.rows(),
+                rows: stage.series.rows(),
             });
         }
     }
 
     /// Keeps what would be lost; the directory to go on from, where there is something to go on
-    /// with. `next`: the next report of the present deck, waited for until then.
+    /// with. Who has only watched loses nothing by leaving; where the program is `cut_short`, by a
+    /// signal or a defect, nobody knows what was meant, and the state is kept all the same. `next`:
+    /// the next report of the present deck, waited for until then.
     ///
     /// # Errors
     /// The state is lost.
     pub fn keep_at_the_end(
         &self,
         session: &mut Session,
+        cut_short: bool,
         mut next: impl FnMut(Instant) -> Option<Report>,
     ) -> Result<Option<PathBuf>, LostState> {
         self.send(Command::Play(false));
         settle(session, &mut next);
-        if session.unsaved() {
+        if session.unsaved() && (session.acted || cut_short) {
             self.keep(session);
             let end = Instant::now() + PATIENCE;
             loop {
