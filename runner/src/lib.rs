@@ -23,6 +23,7 @@ pub mod enclosure;
 mod engine;
 mod executor;
 pub mod fast;
+pub mod figures;
 pub mod filter;
 pub mod frame;
 mod given;
@@ -43,7 +44,6 @@ pub mod scene;
 pub mod setup;
 pub mod simulation;
 mod storage;
-pub mod time_unit;
 pub mod totals;
 
 pub use deck::Deck;

@@ -32,7 +32,7 @@ impl Watched {
         Self { deck, inbox }
     }
 
-    fn until<T>(&self, wanted: impl Fn(Report) -> Option<T>) -> T {
+    fn until<T>(&self, mut wanted: impl FnMut(Report) -> Option<T>) -> T {
         loop {
             let report = self
                 .inbox
@@ -97,6 +97,34 @@ fn a_run_that_is_watched_has_the_digest_of_one_that_is_not() {
     let (digest, position) = watched.digest(&place.path().join("a"));
     assert!(position > 300);
     assert_eq!(digest, plain(position as u64));
+}
+
+#[test]
+fn the_numbers_beside_a_picture_are_those_of_the_picture() {
+    // The series has two rows, the first and the last.
+    let set = ["particle_spacing=0.1", "output.rows=2"];
+    let watched = Watched::open("dam-break", &set, 1e3);
+    let mut row = None;
+    let mut pictures = 0;
+    while pictures < 20 {
+        watched.until(|report| match report {
+            Report::Moment(moment) => {
+                row = Some(moment.row);
+                Some(())
+            }
+            Report::Shot(shot) => {
+                let row = row.as_ref().expect("measured");
+                assert_eq!(row.position, shot.status.position);
+                let squares = shot.points.speed.iter().map(|&v| f64::from(v).powi(2));
+                // A square of 0.1 m of water, a metre deep, weighs 10 kg.
+                let kinetic = 0.5 * 10.0 * squares.sum::<f64>();
+                assert!((row.energy("kinetic") - kinetic).abs() <= 1e-5 * kinetic);
+                pictures += 1;
+                Some(())
+            }
+            _ => None,
+        });
+    }
 }
 
 #[test]

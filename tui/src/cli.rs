@@ -291,6 +291,21 @@ pub struct MovieArguments {
     /// from it
     #[arg(long, value_name = "PICTURE", conflicts_with_all = ["color", "colormap"])]
     pub tint: Option<PathBuf>,
+    /// Show this rectangle of a scene in the plane, m [default: the view follows the fluid]
+    #[arg(
+        long,
+        value_name = "XMIN,YMIN,XMAX,YMAX",
+        value_parser = rectangle,
+        allow_hyphen_values = true,
+        conflicts_with = "zoom"
+    )]
+    pub view: Option<[f64; 4]>,
+    /// Magnify the middle of the picture
+    #[arg(long, value_name = "FACTOR", value_parser = zoom)]
+    pub zoom: Option<f64>,
+    /// Go once around a scene in space
+    #[arg(long)]
+    pub orbit: bool,
     /// Show the same scene beside it in another arithmetic
     #[arg(long)]
     pub compare: Option<CompareName>,
@@ -376,6 +391,37 @@ fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(s) if s > 0.0 && s <= 3600.0 => Ok(s),
         _ => Err("allowed: a number above 0 and at most 3600 s".to_owned()),
+    }
+}
+
+fn rectangle(text: &str) -> Result<[f64; 4], String> {
+    let sides: Result<Vec<f64>, _> = text.split(',').map(|side| side.trim().parse()).collect();
+    match sides.as_deref() {
+        Ok(&[left, bottom, right, top])
+            if left < right
+                && bottom < top
+                && [left, bottom, right, top].iter().all(|x| x.abs() < 1e30) =>
+        {
+            Ok([left, bottom, right, top])
+        }
+        _ => Err(
+            "allowed: four numbers in m, such as 0,0,4,2.5, the first below the third and the \
+             second below the fourth"
+                .to_owned(),
+        ),
+    }
+}
+
+/// Magnifications of a movie, smallest and largest.
+const ZOOMS: [f64; 2] = [0.01, 1000.0];
+
+fn zoom(text: &str) -> Result<f64, String> {
+    let [smallest, largest] = ZOOMS;
+    match text.parse::<f64>() {
+        Ok(factor) if (smallest..=largest).contains(&factor) => Ok(factor),
+        _ => Err(format!(
+            "allowed: a number from {smallest} to {largest}; 1 shows the whole scene"
+        )),
     }
 }
 

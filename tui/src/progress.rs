@@ -3,8 +3,8 @@
 use crate::brief::brief;
 use crate::exit::tell;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use loschmidt_runner::figures::{Scale, number, quantity};
 use loschmidt_runner::run::Progress;
-use loschmidt_runner::time_unit::TimeUnit;
 use loschmidt_runner::{Run, SavedState, setup};
 use loschmidt_viewer::movie;
 use loschmidt_viewer::session::count;
@@ -47,7 +47,9 @@ pub fn announce(run: &mut Run, set: &[String]) {
     for (name, limit) in setup::fixed_limits(player.scene()) {
         if dt > limit {
             tell(&format!(
-                "warning: the time step {dt:.2e} s exceeds the {name} limit {limit:.2e} s; see `loschmidt check`"
+                "warning: the time step {} exceeds the {name} limit {}; see `loschmidt check`",
+                quantity(dt, "s", 3),
+                quantity(limit, "s", 3)
             ));
         }
     }
@@ -70,12 +72,12 @@ pub enum Display {
         /// It.
         bar: ProgressBar,
         /// In which times are shown.
-        unit: TimeUnit,
+        unit: Scale,
     },
     /// Lines.
     Lines {
         /// In which times are shown.
-        unit: TimeUnit,
+        unit: Scale,
         /// When and at which step this process began.
         began: Option<(Instant, u64)>,
         /// When the last line was printed.
@@ -84,7 +86,7 @@ pub enum Display {
 }
 
 impl Display {
-    pub fn new(quiet: bool, unit: TimeUnit, done: u64, total: u64) -> Self {
+    pub fn new(quiet: bool, unit: Scale, done: u64, total: u64) -> Self {
         if quiet {
             return Self::Quiet;
         }
@@ -155,29 +157,19 @@ impl Display {
     }
 }
 
-fn energies(progress: &Progress<'_>, unit: TimeUnit) -> String {
+fn energies(progress: &Progress<'_>, unit: Scale) -> String {
     let (row, home) = (progress.row, progress.home);
     // Short enough for one line of 80 columns: a wrapped bar cannot be redrawn cleanly.
     let largest = row.energies.iter().chain(&home.energies);
     let largest = largest.fold(0.0, |most: f64, (_, energy)| most.max(energy.abs()));
-    let (joules, scale) = smaller_than_joule(largest);
-    let mut text = format!("t {:.4} {}  {joules}:", unit.count(row.time_s), unit.name);
+    let scale = Scale::of(largest, "J");
+    let mut text = format!("t {}  {}:", unit.amount(row.time_s, 5), scale.name());
     for (kind, energy) in row.energies.iter().take(4) {
-        text += &format!(" {} {:.0}", brief(kind), energy / scale);
+        text += &format!(" {} {}", brief(kind), scale.fixed(*energy, 4));
     }
     let error = row.total - home.total;
-    text + &format!(" error {error:+.1e}  S {:.3}", row.entropy)
-}
-
-/// The unit of energies whose largest is this, and J for each: J, or where that is little a smaller
-/// one.
-pub fn smaller_than_joule(largest: f64) -> (&'static str, f64) {
-    match largest {
-        0.0 | 1.0.. => ("J", 1.0),
-        1e-3.. => ("mJ", 1e-3),
-        1e-6.. => ("µJ", 1e-6),
-        _ => ("nJ", 1e-9),
-    }
+    let error = quantity(error, "J", 2);
+    text + &format!(" error {error}  S {}", number(row.entropy, 4))
 }
 
 /// Seconds for people: 48 s, 12 min 30 s, 2 h 05 min.

@@ -1,14 +1,13 @@
 //! What a run says at its end.
 
-use crate::progress::smaller_than_joule;
 use comfy_table::{CellAlignment, Table, presets::NOTHING};
 use loschmidt_runner::Outcome;
+use loschmidt_runner::figures::{Scale, number, quantity};
 use loschmidt_runner::run::Row;
-use loschmidt_runner::time_unit::TimeUnit;
 use loschmidt_runner::totals::total_for_people;
 
 /// The table of energies, entropy and digests.
-pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
+pub fn table(outcome: &Outcome, rows: &[Row], unit: Scale) -> String {
     let first = rows.first();
     let turn = rows.iter().rev().find(|row| row.leg == 1);
     let last = rows.last();
@@ -27,11 +26,10 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
             .map(|(_, row)| row.map_or(String::new(), value));
         table.add_row(std::iter::once(name.to_owned()).chain(cells));
     };
-    line("time", &|row| {
-        format!("{:.4} {}", unit.count(row.time_s), unit.name)
-    });
+    line("time", &|row| unit.amount(row.time_s, 5));
     let largest = rows.iter().flat_map(|row| &row.energies);
-    let joule = joules(largest.fold(0.0, |most: f64, (_, value)| most.max(value.abs())));
+    let largest = largest.fold(0.0, |most: f64, (_, value)| most.max(value.abs()));
+    let joule = |energy: f64| Scale::of(largest, "J").amount(energy, 7);
     for (kind, _) in first.into_iter().flat_map(|row| &row.energies) {
         line(&format!("{kind} energy"), &|row| joule(row.energy(kind)));
     }
@@ -40,13 +38,15 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
         let (name, unit) = total_for_people(heading);
         line(&name, &|row| {
             row.total_of(heading)
-                .map_or(String::new(), |x| format!("{x:.9e} {unit}"))
+                .map_or(String::new(), |x| quantity(x, unit, 10))
         });
     }
-    line("entropy", &|row| format!("{:.4}", row.entropy));
+    let entropies = rows.iter().map(|row| row.entropy.abs());
+    let nats = Scale::of(entropies.fold(0.0, f64::max), "");
+    line("entropy", &|row| nats.fixed(row.entropy, 5));
     line("  in equilibrium", &|row| {
         row.equilibrium_entropy_of_energy
-            .map_or("-".to_owned(), |s| format!("{s:.4}"))
+            .map_or("-".to_owned(), |s| nats.fixed(s, 5))
     });
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
@@ -54,21 +54,23 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
     let mut text = table.trim_fmt();
     let error = match outcome.energy.max_error_over_released {
         Some(error) => format!(
-            "{:.3} J, {error:.2e} of the {:.1} J released",
-            outcome.energy.max_error, outcome.energy.released
+            "{}, {} of the {} released",
+            quantity(outcome.energy.max_error, "J", 3),
+            number(error, 3),
+            quantity(outcome.energy.released, "J", 5)
         ),
         None => {
             let error = outcome.energy.max_error;
             let kinetic = first.map_or(0.0, |row| row.energy("kinetic"));
             let work = last.map_or(0.0, |row| -row.energy("drive"));
             let of = if work > 0.0 {
-                format!(", {:.2e} of the work of the walls", error / work)
+                format!(", {} of the work of the walls", number(error / work, 3))
             } else if kinetic > 0.0 {
-                let share = error / kinetic;
-                format!(", {share:.2e} of the kinetic energy at the start")
+                let share = number(error / kinetic, 3);
+                format!(", {share} of the kinetic energy at the start")
             } else if outcome.energy.initial > 0.0 {
-                let share = error / outcome.energy.initial;
-                format!(", {share:.2e} of the energy at the start")
+                let share = number(error / outcome.energy.initial, 3);
+                format!(", {share} of the energy at the start")
             } else {
                 String::new()
             };
@@ -77,7 +79,7 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
             } else {
                 "; nothing was released"
             };
-            format!("{error:.3e} J{of}{released}")
+            format!("{}{of}{released}", quantity(error, "J", 4))
         }
     };
     text += &format!("\n\nlargest energy error    {error}");
@@ -111,13 +113,6 @@ pub fn table(outcome: &Outcome, rows: &[Row], unit: TimeUnit) -> String {
 /// wall is below.
 const MOST_COMPRESSION: f64 = 0.1;
 
-/// Writes energies whose largest is this: in J, or where that is little in a smaller unit.
-fn joules(largest: f64) -> impl Fn(f64) -> String {
-    let (unit, scale) = smaller_than_joule(largest);
-    // Nothing is nothing, from below as well.
-    move |energy| format!("{:.3} {unit}", (1e3 * energy / scale).round() / 1e3 + 0.0)
-}
-
 /// Why a run cannot be expected to return.
 fn reason(outcome: &Outcome) -> &'static str {
     match (outcome.model.as_str(), outcome.arithmetic.as_str()) {
@@ -144,10 +139,10 @@ pub fn sentence(outcome: &Outcome) -> String {
             steps / 2
         ),
         Some(false) => format!(
-            "Time did not come back: after {} steps out and {} back, a particle is up to {:.3e} m from home.{}",
+            "Time did not come back: after {} steps out and {} back, a particle is up to {} from home.{}",
             steps / 2,
             steps / 2,
-            outcome.max_return_error_m.unwrap_or(f64::NAN),
+            quantity(outcome.max_return_error_m.unwrap_or(f64::NAN), "m", 4),
             reason(outcome)
         ),
         None => {

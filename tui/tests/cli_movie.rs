@@ -97,6 +97,45 @@ fn a_movie_is_pictures_and_a_gif_and_says_what_came_home() {
 }
 
 #[test]
+fn a_view_that_cannot_be_is_refused_in_words() {
+    let place = Workplace::new();
+    for (more, words) in [
+        ("--view=0,0,4", ["four numbers in m", "--view"]),
+        ("--view=4,0,0,2", ["first below the third", "--view"]),
+        ("--view=0,0,inf,2", ["four numbers in m", "--view"]),
+        ("--zoom=0", ["from 0.01 to 1000", "--zoom"]),
+        ("--zoom=x", ["from 0.01 to 1000", "--zoom"]),
+        ("--orbit", ["in the plane", "--orbit"]),
+    ] {
+        place.call(&with(&[more])).refused(2, &words);
+    }
+    let both = ["--view", "-1,-1,1,1", "--zoom=2"];
+    place
+        .call(&with(&both))
+        .refused(2, &["cannot be used with"]);
+    let space = ["movie", "dam-break-3d", "--view=0,0,1,1"];
+    place.call(&space).refused(2, &["--view", "in space"]);
+    assert_eq!(files_below(&place.join(".")).len(), 0);
+}
+
+#[test]
+fn a_view_that_was_asked_for_is_another_picture() {
+    let place = Workplace::new();
+    let first = |more: &[&str]| {
+        let short = [
+            &["--seconds=0.1", "--quiet", "--force", "--out=frames"],
+            more,
+        ]
+        .concat();
+        place.call(&with(&short)).with_code(0);
+        fs::read(place.join("frames/frame-00000.png")).expect("a picture")
+    };
+    let whole = first(&[]);
+    let views = [first(&["--view=-1,-1,1,1"]), first(&["--zoom=2"])];
+    assert!(views.iter().all(|view| *view != whole) && views[0] != views[1]);
+}
+
+#[test]
 fn quiet_is_quiet() {
     let place = Workplace::new();
     let ended = place

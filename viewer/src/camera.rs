@@ -37,6 +37,12 @@ impl View {
     /// The steepest pitch, rad: just short of looking along the vertical.
     pub const STEEPEST: f64 = 1.55;
 
+    /// Whether it shows the whole scene, from whatever side.
+    #[must_use]
+    pub fn is_of_the_whole(&self) -> bool {
+        self.zoom == 1.0 && self.pan == [0.0, 0.0]
+    }
+
     /// Turns the camera around the scene, rad.
     #[must_use]
     pub fn orbited(self, yaw: f64, pitch: f64) -> Self {
@@ -111,7 +117,7 @@ enum Lens {
 }
 
 /// Part of the rectangle that the scene fills.
-const FILL: f64 = 0.95;
+pub(crate) const FILL: f64 = 0.95;
 
 /// Distance of the camera in radii of the scene.
 const DISTANCE: f64 = 3.2;

@@ -1,6 +1,6 @@
 //! What the colour of a particle says.
 
-use crate::colour::{Colormap, Rgb};
+use crate::colour::{Colormap, Palette, Rgb};
 use crate::home::{HeliumScales, Home};
 use loschmidt_core::model::Measure;
 use loschmidt_runner::scene::Scene;
@@ -267,11 +267,11 @@ pub(crate) struct Painter<'a> {
 const COLOURS: usize = 256;
 
 impl<'a> Painter<'a> {
-    pub fn new(colouring: &'a Colouring, colormap: Colormap, range: [f64; 2]) -> Self {
+    pub fn new(colouring: &'a Colouring, palette: Palette, range: [f64; 2]) -> Self {
         let width = range[1] - range[0];
         Self {
             colouring,
-            colours: std::array::from_fn(|n| colormap.at(n as f64 / (COLOURS - 1) as f64)),
+            colours: std::array::from_fn(|n| palette.at(n as f64 / (COLOURS - 1) as f64)),
             low: range[0],
             factor: if width > 0.0 {
                 COLOURS as f64 / width

@@ -5,7 +5,7 @@
 //! Sizes follow from the em, which follows from the size of the picture: readable from 320 x 240
 //! to 4K.
 
-use crate::camera::View;
+use crate::camera::{Projection, View};
 use crate::colour::Rgb;
 use crate::colouring::Colouring;
 use crate::field;
@@ -14,9 +14,10 @@ use crate::home::Home;
 pub use crate::look::Look;
 use crate::plot;
 use crate::raster::{Mask, Pixels, Raster, Rect};
+use crate::ruler;
 use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::Points;
-use loschmidt_runner::time_unit::TimeUnit;
+use loschmidt_runner::figures::{self, Scale};
 use std::cell::RefCell;
 
 /// A run in the picture.
@@ -79,7 +80,7 @@ impl PictureLayout {
         let bar = (13 * em / 2).min(height / 2);
         let beside = Rect::new(0, 0, width - column, height);
         let above = Rect::new(0, 0, width, height - bar);
-        let size = home.shown.size();
+        let size = home.laid_out.size();
         let aspect = if home.dimension == 2 && size[1] > 0.0 {
             size[0] / size[1]
         } else {
@@ -146,6 +147,8 @@ pub fn draw_on(
         );
         if layout.panel.is_some() {
             label(raster, rect, pane.label, look, layout.em);
+            let projection = Projection::new(home, &look.view, rect.width, rect.height);
+            ruler::paint(raster, rect, &projection, &look.theme, layout.em);
         }
     }
     let theme = &look.theme;
@@ -402,10 +405,8 @@ impl Parts<'_> {
             weight: Weight::SemiBold,
             ..self.style(self.em * 10 / 7)
         };
-        // A state a hair before home is at home.
-        let unit = TimeUnit::of(self.home.span);
-        let time = format!("{:.3}", unit.count(points.time)).replace("-0.000", "0.000");
-        text::write(raster, &big, x, middle, &format!("{time} {}", unit.name));
+        let time = Scale::of(self.home.span, "s").amount(points.time, 4);
+        text::write(raster, &big, x, middle, &time);
         let small = TextStyle {
             colour,
             ..self.style(self.small())
@@ -432,10 +433,14 @@ impl Parts<'_> {
     /// The colour map between its numbers, with title and unit.
     fn legend(&self, raster: &mut Pixels<'_>, rect: Rect) {
         let colouring = &self.look.colouring;
-        let unit = colouring.unit();
+        let range = self
+            .look
+            .range
+            .unwrap_or_else(|| colouring.range(self.home));
+        let ([low, middle, high], scale) = figures::ticks(range, colouring.unit());
         let style = self.style(self.small());
-        let title = match unit {
-            "" => colouring.title().to_owned(),
+        let title = match scale.name() {
+            unit if unit.is_empty() => colouring.title().to_owned(),
             unit => format!("{} / {unit}", colouring.title()),
         };
         let title = text::fitted(&style, &title, rect.width as f64);
@@ -448,16 +453,12 @@ impl Parts<'_> {
             &title,
         );
         let bar = Rect::new(rect.x, rect.y + size * 3 / 2, rect.width, size * 4 / 5);
-        let map = self.look.colormap();
+        let map = self.look.palette();
         for column in 0..bar.width {
             let part = (column as f64 + 0.5) / bar.width as f64;
             let line = Rect::new(bar.x + column, bar.y, 1, bar.height);
             raster.fill(line, map.at(part), 255);
         }
-        let range = self
-            .look
-            .range
-            .unwrap_or_else(|| colouring.range(self.home));
         let faint = TextStyle {
             colour: self.look.theme.faint,
             ..style
@@ -465,7 +466,6 @@ impl Parts<'_> {
         let y = (bar.y + bar.height + size + size / 5) as i64;
         let x = rect.x as f64;
         let width = rect.width as f64;
-        let [low, middle, high] = plot::numbers_of(range);
         text::write(raster, &faint, x, y, &low);
         text::write_around(raster, &faint, x + 0.5 * width, y, &middle);
         text::write_left_of(raster, &faint, x + width, y, &high);

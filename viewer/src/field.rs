@@ -8,7 +8,7 @@
 //! No pixel depends on the order of the particles, nor on the number of threads.
 
 use crate::bands::{self, DiscBatch};
-use crate::camera::Projection;
+use crate::camera::{Projected, Projection};
 use crate::colour::Rgb;
 use crate::colouring::Painter;
 use crate::deep::{self, Disc};
@@ -25,11 +25,14 @@ use std::cell::Cell;
 /// Particles whose discs one thread makes.
 const PIECE: usize = 8192;
 
-/// Weight of a wall particle in space, of 255.
-const FAINT: u8 = 70;
+/// Weight of a wall particle in space, of 255, at most.
+const FAINT: f64 = 70.0;
+
+/// How much of what is behind them all wall particles together cover.
+const VEIL: f64 = 0.3;
 
 /// Weight of the background on the farthest ball, of 255.
-const HAZE: f64 = 120.0;
+const HAZE: f64 = 60.0;
 
 thread_local! {
     /// Memory of earlier pictures.
@@ -77,10 +80,9 @@ pub(crate) fn paint(
     } else {
         let mut pieces = DEEP.take();
         raster.fill(rect, background, 255);
-        scene.edges(raster, false);
+        scene.edges(raster);
         let stamps = scene.deep(&mut pieces);
         bands::draw_bands(raster, rect, |canvas| deep::draw(canvas, &pieces, &stamps));
-        scene.edges(raster, true);
         DEEP.set(pieces);
     }
 }
@@ -98,7 +100,7 @@ impl FieldPainting<'_> {
         let look = self.look;
         Painter::new(
             &look.colouring,
-            look.colormap(),
+            look.palette(),
             look.range
                 .unwrap_or_else(|| look.colouring.range(self.home)),
         )
@@ -181,6 +183,7 @@ impl FieldPainting<'_> {
         let background = self.look.theme.background;
         let mut levels: Vec<u32> = vec![level(SMALLEST)];
         let mut discs: Vec<Disc> = Vec::new();
+        let faint = self.wall_weight();
         for x in &self.points.wall_position {
             let Some(p) = self.projection.project(x.map(f64::from)) else {
                 continue;
@@ -188,7 +191,7 @@ impl FieldPainting<'_> {
             if let Some(disc) = disc(p.x, p.y, SMALLEST, self.size()) {
                 discs.push(Disc {
                     colour: self.look.theme.faint,
-                    weight: FAINT,
+                    weight: faint,
                     ..disc
                 });
             }
@@ -239,36 +242,60 @@ impl FieldPainting<'_> {
         stamps
     }
 
-    /// The edges of the box around the walls: those behind the fluid, or those before it.
-    fn edges(&self, raster: &mut Pixels<'_>, before: bool) {
+    /// Corners of the box around the walls, on the screen.
+    fn corners(&self) -> Vec<Option<Projected>> {
         let Some(walls) = self.home.walls else {
-            return;
+            return Vec::new();
         };
         let corner = |n: usize| -> [f64; 3] {
             std::array::from_fn(|k| [walls.low[k], walls.high[k]][n >> k & 1])
         };
-        let projected: Vec<_> = (0..8).map(|n| self.projection.project(corner(n))).collect();
-        // The corner nearest to the camera: the three edges at it are before the fluid.
-        let nearest = (0..8).filter(|&n| projected[n].is_some()).min_by(|&a, &b| {
+        (0..8).map(|n| self.projection.project(corner(n))).collect()
+    }
+
+    /// Weight of a wall particle: in a small picture many of them fall on a pixel, and together
+    /// they are to be no fog.
+    fn wall_weight(&self) -> u8 {
+        let corners: Vec<Projected> = self.corners().into_iter().flatten().collect();
+        let side = |place: fn(&Projected) -> f64| {
+            let ends = corners.iter().map(place);
+            let low = ends.clone().fold(f64::INFINITY, f64::min);
+            (ends.fold(f64::NEG_INFINITY, f64::max) - low).max(1.0)
+        };
+        let area = side(|p| p.x) * side(|p| p.y);
+        let disc = std::f64::consts::PI * SMALLEST * SMALLEST;
+        let on_a_pixel = (self.points.wall_position.len() as f64 * disc / area).max(1e-3);
+        let veil = 1.0 - libm::pow(1.0 - VEIL, 1.0 / on_a_pixel);
+        (255.0 * veil).clamp(1.0, FAINT) as u8
+    }
+
+    /// The edges of the box around the walls, all of them behind the fluid: those on the near side
+    /// are fainter.
+    fn edges(&self, raster: &mut Pixels<'_>) {
+        let projected = self.corners();
+        // The three edges at the corner nearest to the camera are on the near side.
+        let shown = (0..projected.len()).filter(|&n| projected[n].is_some());
+        let nearest = shown.min_by(|&a, &b| {
             let depth = |n: usize| projected[n].map_or(f64::INFINITY, |p| p.depth);
             depth(a).total_cmp(&depth(b))
         });
-        let mut mask = Mask::new(self.rect);
         let width = (self.rect.height as f64 / 360.0).clamp(1.0, 6.0);
-        for a in 0..8_usize {
-            for k in 0..3 {
-                let b = a | 1 << k;
-                let front = Some(a) == nearest || Some(b) == nearest;
-                if b == a || front != before {
-                    continue;
-                }
-                if let (Some(p), Some(q)) = (projected[a], projected[b]) {
-                    let (x, y) = (self.rect.x as f64, self.rect.y as f64);
-                    mask.line([p.x + x, p.y + y], [q.x + x, q.y + y], width);
+        for (near, weight) in [(false, 130), (true, 70)] {
+            let mut mask = Mask::new(self.rect);
+            for a in 0..projected.len() {
+                for b in [a | 1, a | 2, a | 4] {
+                    let is_near = Some(a) == nearest || Some(b) == nearest;
+                    if b == a || is_near != near {
+                        continue;
+                    }
+                    if let (Some(p), Some(q)) = (projected[a], projected[b]) {
+                        let (x, y) = (self.rect.x as f64, self.rect.y as f64);
+                        mask.line([p.x + x, p.y + y], [q.x + x, q.y + y], width);
+                    }
                 }
             }
+            mask.paint(raster, self.look.theme.faint, weight);
         }
-        mask.paint(raster, self.look.theme.faint, if before { 70 } else { 130 });
     }
 }
 

@@ -1,8 +1,8 @@
 //! Home: what a picture has to know of a scene besides the frame.
 //!
 //! The initial places of the particles (for height, displacement and the tint), the box that the
-//! view shows, and the scales of speed and pressure by which colours are chosen, so that one colour
-//! means the same in all frames of a run:
+//! view shows (see [`crate::framing`]), and the scales of speed and pressure by which colours are
+//! chosen, so that one colour means the same in all frames of a run:
 //!
 //! - speed U = max(√(2 g H), twice the fastest first velocity), H the height of the fluid (m) along
 //!   the gravity g (m/s²); a tenth of the sound speed where both are zero; in helium at least what
@@ -54,7 +54,8 @@ impl Box3 {
         std::array::from_fn(|k| 0.5 * (self.low[k] + self.high[k]))
     }
 
-    fn grown(self, by: f64, axes: usize) -> Self {
+    /// The box with its faces moved out by so much, m, along so many axes.
+    pub(crate) fn grown(self, by: f64, axes: usize) -> Self {
         let by = |k: usize| if k < axes { by } else { 0.0 };
         Self {
             low: std::array::from_fn(|k| self.low[k] - by(k)),
@@ -145,8 +146,11 @@ pub struct Home {
     pub position: Vec<[f64; 3]>,
     /// The box around the fluid at home, m.
     pub fluid: Box3,
-    /// The box that the view shows, m.
+    /// The box that the view shows, m: it may grow with the fluid.
     pub shown: Box3,
+    /// The box by whose shape the parts of a picture are laid out, m: that of the first view, so
+    /// that none of them hops while the view grows.
+    pub laid_out: Box3,
     /// The box around the walls, m.
     pub walls: Option<Box3>,
     /// Physical time of the turnaround, or of the end of a one-way run, s.
@@ -195,14 +199,7 @@ impl Home {
                 scales
             }
         });
-        let shown = match (walls, helium) {
-            (Some(walls), _) => walls.joined(fluid),
-            (None, Some(scales)) => fluid.grown(spread(scales.flow.whole, fluid, span), dimension),
-            (None, None) if scene.solid.is_some() => {
-                fluid.grown(swing(frame, fluid, span), dimension)
-            }
-            (None, None) => fluid.grown(free_flight(frame, fluid, span), dimension),
-        };
+        let shown = Self::first_view(fluid, walls, dimension);
         Self {
             name: scene.name.clone(),
             dimension,
@@ -222,6 +219,7 @@ impl Home {
             position: frame.position.clone(),
             fluid,
             shown,
+            laid_out: shown,
             walls,
             span,
             columns: frame.columns.iter().map(extremes).collect(),
@@ -254,27 +252,6 @@ fn extremes(column: &FrameColumn) -> (Measure, [f64; 2]) {
         ],
     };
     (column.measure, range)
-}
-
-/// Without walls the view has room on every side for half of what the fastest particle could fly
-/// until the turnaround, and for a quarter of the fluid at least, m.
-fn free_flight(frame: &Frame, fluid: Box3, span: f64) -> f64 {
-    let largest = fluid.size().into_iter().fold(0.0, f64::max);
-    (0.5 * fastest(frame) * span).clamp(0.25 * largest, 2.0 * largest)
-}
-
-/// As [`free_flight`], for bodies: they fly and swing with the mean of their speeds, m.
-fn swing(frame: &Frame, bodies: Box3, span: f64) -> f64 {
-    let largest = bodies.size().into_iter().fold(0.0, f64::max);
-    let speeds = frame.velocity.iter().map(length);
-    let mean = speeds.sum::<f64>() / frame.velocity.len().max(1) as f64;
-    (0.5 * mean * span).clamp(0.1 * largest, 2.0 * largest)
-}
-
-/// As [`free_flight`], for helium, whose mean speed in the end is a fifth of this one, m.
-fn spread(speed: f64, drop: Box3, span: f64) -> f64 {
-    let largest = drop.size().into_iter().fold(0.0, f64::max);
-    (0.2 * speed * span).clamp(0.1 * largest, 2.0 * largest)
 }
 
 fn length(v: &[f64; 3]) -> f64 {

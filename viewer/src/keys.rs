@@ -201,7 +201,7 @@ pub const TABLE: &[Binding] = &[
     binding(
         "experiments",
         &[(K::Char('b'), A::Flip)],
-        "flip the last bit of one particle",
+        "flip the last bit of one particle, and mark it",
     ),
     binding(
         "experiments",

@@ -5,11 +5,11 @@
 //! ```
 //!
 //! 1. [`raster`]: the pixels. [`colour`]: colour maps and themes. [`text`]: the embedded font.
-//! 2. [`home`]: what a picture needs to know of a scene besides its points. [`camera`]: where a
-//!    point of the scene is on the screen.
+//! 2. [`home`]: what a picture needs to know of a scene besides its points. [`framing`]: the region
+//!    that the view shows. [`camera`]: where a point of the scene is on the screen.
 //! 3. [`colouring`]: what the colour of a particle says. [`picture`]: a picture laid over the
 //!    initial state.
-//! 4. [`field`](mod@field): the particles. [`history`], [`plot`]: energy and entropy, on which the
+//! 4. [`field`](mod@field): the particles. [`ruler`]: the length scale. [`history`], [`plot`]: energy and entropy, on which the
 //!    way back retraces the way out. [`draw`](mod@draw): all of it, with time, arrow and legend.
 //! 5. [`movie`]: a run out and back as numbered pictures, GIF and MP4.
 //! 6. [`session`]: a scene that a user watches and steers, whatever face shows it. [`keys`]: the
@@ -32,6 +32,7 @@ mod deep;
 pub mod draw;
 pub mod field;
 mod flat;
+pub mod framing;
 pub mod history;
 pub mod home;
 pub mod keys;
@@ -41,6 +42,7 @@ pub mod picture;
 pub mod plot;
 pub mod png;
 pub mod raster;
+pub mod ruler;
 pub mod session;
 mod stamp;
 pub mod text;

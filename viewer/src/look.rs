@@ -1,7 +1,7 @@
 //! How points are drawn: camera, colours, theme, and what the panel says.
 
 use crate::camera::View;
-use crate::colour::{Colormap, Theme};
+use crate::colour::{Colormap, Palette, Theme};
 use crate::colouring::Colouring;
 
 /// How points are drawn.
@@ -52,5 +52,11 @@ impl Look {
     #[must_use]
     pub fn colormap(&self) -> Colormap {
         self.colormap.unwrap_or_else(|| self.colouring.colormap())
+    }
+
+    /// The part of it that can be told from the ground.
+    #[must_use]
+    pub fn palette(&self) -> Palette {
+        self.colormap().over(self.theme.background)
     }
 }

@@ -6,7 +6,7 @@ use crate::colouring::round_number;
 use crate::history::{History, HistoryPoint};
 use crate::raster::{Mask, Pixels, Rect};
 use crate::text::{self, TextStyle, Weight};
-use loschmidt_runner::time_unit::TimeUnit;
+use loschmidt_runner::figures::quantity;
 
 /// A curve and what it is called.
 pub struct HistoryCurve<'a> {
@@ -79,8 +79,7 @@ impl Plot<'_> {
         let below = (rect.y + rect.height) as i64 - em as i64 / 3;
         text::write(raster, &faint, rect.x as f64, below, "0");
         let right = (rect.x + rect.width) as f64;
-        let unit = TimeUnit::of(self.span);
-        let end = format!("{} {}", number(unit.count(self.span)), unit.name);
+        let end = quantity(self.span, "s", 3);
         text::write_left_of(raster, &faint, right, below, &end);
         if rect.width > 12 * em {
             let middle = rect.x as f64 + 0.5 * rect.width as f64;
@@ -217,7 +216,7 @@ impl Plot<'_> {
     }
 }
 
-/// Energies of a run: the kinetic, the potential one of gravity, and the total, in kJ or J.
+/// Energies of a run: the kinetic, the potential one of gravity, and the total.
 pub fn energy(raster: &mut Pixels<'_>, rect: Rect, history: &History, theme: &Theme, em: usize) {
     let points = history.points();
     let largest = points
@@ -244,23 +243,64 @@ pub fn energy(raster: &mut Pixels<'_>, rect: Rect, history: &History, theme: &Th
         curves.push(curve("potential", theme.second, &potential));
     }
     curves.push(curve("total", theme.faint, &total));
-    let margin = 0.08 * (largest - lowest).max(f64::MIN_POSITIVE);
-    // Thousands are written as k, which makes them kJ.
+    let first = points.first().map_or([0.0; 2], |p| {
+        [
+            p.potential.min(p.total),
+            p.kinetic.max(p.potential).max(p.total),
+        ]
+    });
     let half = round_number(0.5 * largest);
     Plot {
         title: "energy",
         unit: "",
         curves: &curves,
-        range: [lowest, largest + margin],
+        range: steady(first, [lowest, largest]),
         // At the left the curves are far from the middle.
         mark: Some(MarkedValue {
             value: half,
-            text: joules(half),
+            text: quantity(half, "J", 3),
             left: true,
         }),
         span: history.span(),
     }
     .draw(raster, rect, theme, em);
+}
+
+/// Ends of an axis that rests: those of what is known at the first moment, and beyond it, where later
+/// moments go farther, the next of a few round numbers. Zero is on the axis.
+#[must_use]
+pub fn steady(first: [f64; 2], seen: [f64; 2]) -> [f64; 2] {
+    let size = first.iter().chain(&seen).map(|x| x.abs());
+    let size = size.fold(0.0, f64::max);
+    if size == 0.0 {
+        return [0.0, 1.0];
+    }
+    let end = |first: f64, seen: f64| {
+        let room = 1.04 * first;
+        if seen <= room { room } else { at_least(seen) }
+    };
+    let low = -end((-first[0]).max(0.0), (-seen[0]).max(0.0));
+    let high = end(first[1].max(0.0), seen[1].max(0.0));
+    // A hair below zero is no reason for an axis below zero.
+    let low = if -low < 1e-9 * size { 0.0 } else { low };
+    [low, if high < 1e-9 * size { 0.0 } else { high }]
+}
+
+/// The least of 1, 1.5, 2, 3, 5 and 7 times a power of ten that is not below `x`.
+fn at_least(x: f64) -> f64 {
+    let power = libm::pow(10.0, libm::floor(libm::log10(x)));
+    let steps = [1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0].map(|step| step * power);
+    steps.into_iter().find(|step| *step >= x).unwrap_or(x)
+}
+
+/// Ends of an axis of entropies: even whole numbers, so that it rests while the curve grows.
+#[must_use]
+pub fn whole_numbers([low, high]: [f64; 2]) -> [f64; 2] {
+    if low > high {
+        return [0.0, 1.0];
+    }
+    let even = |x: f64| 2.0 * (0.5 * x).floor();
+    [even(low - 0.3), -even(-high - 0.3)]
 }
 
 /// Entropies of one or two runs, with the equilibrium value of the first.
@@ -300,12 +340,7 @@ pub fn entropy(
         let top = p.equilibrium.map_or(p.entropy, |e| e.max(p.entropy));
         (low.min(p.entropy), high.max(top))
     });
-    // Whole numbers, so that the axis rests for long while the curve grows.
-    let (low, high) = if low <= high {
-        ((low - 0.3).floor(), (high + 0.3).ceil())
-    } else {
-        (0.0, 1.0)
-    };
+    let [low, high] = whole_numbers([low, high]);
     Plot {
         title: "entropy",
         unit: "",
@@ -321,71 +356,30 @@ pub fn entropy(
     .draw(raster, rect, theme, em);
 }
 
-/// An energy for people.
-fn joules(x: f64) -> String {
-    let text = number(x);
-    let gap = if text.ends_with(['k', 'M', 'G']) {
-        ""
-    } else {
-        " "
-    };
-    text + gap + "J"
-}
-
-/// The ends of a range and its middle, as [`number`] has them, or with as many digits as tell them
-/// apart.
-#[must_use]
-pub fn numbers_of([low, high]: [f64; 2]) -> [String; 3] {
-    let values = [low, 0.5 * (low + high), high];
-    let short = values.map(number);
-    let half = 0.5 * (high - low).abs();
-    if half == 0.0 || (short[0] != short[1] && short[1] != short[2]) {
-        return short;
-    }
-    let digits = (1.0 - half.log10().floor()).clamp(0.0, 12.0) as usize;
-    values.map(|x| format!("{x:.digits$}").replace('-', "−"))
-}
-
-/// A number for people: three digits that count, and k, M or G for thousands, millions and
-/// thousands of millions.
-#[must_use]
-pub fn number(x: f64) -> String {
-    let size = x.abs();
-    let (value, unit) = match size {
-        s if s >= 999.5e6 => (x / 1e9, "G"),
-        s if s >= 999_500.0 => (x / 1e6, "M"),
-        s if s >= 9_995.0 => (x / 1e3, "k"),
-        _ => (x, ""),
-    };
-    let digits = match value.abs() {
-        v if v >= 100.0 || v == 0.0 => 0,
-        v if v >= 10.0 => 1,
-        v if v >= 1.0 => 2,
-        v if v >= 0.1 => 3,
-        _ => 4,
-    };
-    let mut text = format!("{value:.digits$}");
-    if text.contains('.') {
-        text.truncate(text.trim_end_matches('0').trim_end_matches('.').len());
-    }
-    // The minus of typographers, as long as a plus.
-    let text = text.replace('-', "−");
-    if unit.is_empty() {
-        text
-    } else {
-        text + " " + unit
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::numbers_of;
+    use super::*;
 
     #[test]
-    fn the_numbers_of_a_range_can_be_told_apart() {
-        assert_eq!(numbers_of([0.0, 0.4]), ["0", "0.2", "0.4"]);
-        assert_eq!(numbers_of([990.0, 1010.0]), ["990", "1000", "1010"]);
-        assert_eq!(numbers_of([1.648, 1.652]), ["1.6480", "1.6500", "1.6520"]);
-        assert_eq!(numbers_of([1.0, 1.0]), ["1", "1", "1"]);
+    fn axes_rest_while_curves_grow() {
+        // Energy that was there at the start, and flows to and fro.
+        let ranges: Vec<[f64; 2]> = (0..100)
+            .map(|n| steady([0.0, 9810.0], [0.0, 9810.0 * f64::from(n) / 99.0]))
+            .collect();
+        assert!(ranges.iter().all(|range| *range == ranges[0]), "{ranges:?}");
+        // Energy that comes from outside, over four decades: a few steps for each.
+        let mut ends: Vec<f64> = (1..4000)
+            .map(|n| steady([0.0, 0.0], [0.0, libm::pow(10.0, f64::from(n) / 1000.0)])[1])
+            .collect();
+        assert!(ends.is_sorted());
+        ends.dedup();
+        assert!((20..30).contains(&ends.len()), "{ends:?}");
+        assert_eq!(steady([-5.0, 0.0], [-5.0, 0.0]), [-5.2, 0.0]);
+        assert_eq!(steady([0.0; 2], [0.0; 2]), [0.0, 1.0]);
+        assert_eq!(whole_numbers([-1.2, 3.9]), [-2.0, 6.0]);
+        assert_eq!(
+            whole_numbers([f64::INFINITY, f64::NEG_INFINITY]),
+            [0.0, 1.0]
+        );
     }
 }

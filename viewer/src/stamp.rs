@@ -120,5 +120,5 @@ fn shade(x: f64, y: f64) -> u8 {
     let squared = (x * x + y * y).min(1.0);
     let z = (1.0 - squared).sqrt();
     let light = (LAMP[0] * x - LAMP[1] * y + LAMP[2] * z).max(0.0);
-    ((0.42 + 0.58 * light).min(1.0) * 255.0 + 0.5) as u8
+    ((0.76 + 0.4 * light).min(1.0) * 255.0 + 0.5) as u8
 }

@@ -1,13 +1,13 @@
 //! The movie of a reversal, on small scenes.
 
 use loschmidt_runner::run::Run;
-use loschmidt_runner::scene::{Scene, load, resolve};
+use loschmidt_runner::scene::{Scene, Source, load, resolve};
 use loschmidt_runner::{ArithmeticKind, Frame, Options, Plan, Player};
 use loschmidt_viewer::draw::PictureLayout;
 use loschmidt_viewer::movie::{
     Ending, Movie, MovieError, MovieStyle, Schedule, Stored, gif, picture_name,
 };
-use loschmidt_viewer::{Home, Look, Picture, Raster, Rect, Rgb, picture};
+use loschmidt_viewer::{Home, Look, Picture, Raster, Rect, Rgb, Theme, picture};
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::Path;
@@ -40,8 +40,7 @@ fn style(pictures: usize) -> MovieStyle {
         size: SIZE,
         fps: 7,
         pictures,
-        look: Look::default(),
-        tint: None,
+        ..MovieStyle::default()
     }
 }
 
@@ -263,6 +262,69 @@ fn a_finished_run_is_drawn_from_its_frames() {
             ..
         }
     ));
+}
+
+/// A drop that falls three times its width.
+fn falling(place: &Path) -> Scene {
+    let path = place.join("drop.toml");
+    let text = "particle_spacing = 0.1\nturnaround = 0.78\nfluid.sound_speed = 20.0\n\
+                gravity.uniform = [0.0, -9.8]\noutput = { rows = 8, frames = 8, snapshots = 1 }\n\
+                region = [{ kind = \"fluid\", shape.circle = { centre = [0.0, 3.0], radius = 0.5 } }]\n";
+    fs::write(&path, text).expect("a file");
+    load(&Source::Path(path), &[]).expect("a scene")
+}
+
+/// Pixels of the field that show fluid.
+fn covered(picture: &Raster, field: Rect) -> usize {
+    let field = picture.part(field);
+    let ground = Theme::DARK.background.0;
+    let pixels = field.pixels().iter();
+    pixels.filter(|&&pixel| pixel != ground).count()
+}
+
+#[test]
+fn a_drop_that_falls_stays_in_the_picture() {
+    let place = TempDir::new().expect("a directory");
+    let [run, drawn, simulated, broken] =
+        ["run", "drawn", "simulated", "broken"].map(|name| place.path().join(name));
+    let scene = falling(place.path());
+    let mut running = Run::start(scene.clone(), Options::default(), Some((&run, false)));
+    let running = running.as_mut().expect("a run");
+    let never = AtomicBool::new(false);
+    running.execute(|_| {}, &never).expect("an end");
+    let stored = Stored::open(&run).expect("a run");
+    let tall = || MovieStyle {
+        look: Look {
+            panel: false,
+            ..Look::default()
+        },
+        size: (160, 400),
+        ..style(9)
+    };
+    let whole = Rect::new(0, 0, 160, 400);
+    // Frames that are there are all shown by the same camera.
+    let mut movie = create(&drawn, false, tall()).expect("a movie");
+    movie.render(&stored, |_| {}, &never).expect("an end");
+    let seen: Vec<usize> = (0..9)
+        .map(|n| covered(&picture(&drawn, n), whole))
+        .collect();
+    for n in [2, 4, 7, 8] {
+        assert!(seen[n].abs_diff(seen[0]) < seen[0] / 10, "{seen:?}");
+    }
+    // Where they are not there yet, the camera follows, and comes back.
+    let mut movie = create(&simulated, false, tall()).expect("a movie");
+    simulate(&mut movie, &scene).expect("an end");
+    let views = |path: &Path| [0, 4, 8].map(|n| picture(path, n));
+    let [first, middle, last] = views(&simulated);
+    assert!(first == last);
+    let [near, far] = [&first, &middle].map(|picture| covered(picture, whole));
+    assert!(far < near && far > seen[4] / 2, "{near} {far} {seen:?}");
+    let mut movie = create(&broken, false, tall()).expect("a movie");
+    interrupt(&mut movie, &scene, 4);
+    drop(movie);
+    let mut movie = create(&broken, false, tall()).expect("the same movie");
+    simulate(&mut movie, &scene).expect("an end");
+    assert!(views(&broken) == [first, middle, last]);
 }
 
 #[test]

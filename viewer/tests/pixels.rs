@@ -99,6 +99,67 @@ fn the_pixels_of_a_scene_in_space_are_the_committed_ones_for_any_number_of_threa
     });
 }
 
+/// Fluid at rest, where the colours begin, from a picture of a movie down to that of a terminal.
+#[test]
+fn fluid_in_space_is_seen_on_either_ground_and_before_the_walls() {
+    let (points, home, _) = after("dam-break-3d", &["particle_spacing=0.1"], 0);
+    for theme in [Theme::DARK, Theme::LIGHT] {
+        for (width, height) in [(640, 480), (90, 60)] {
+            let look = Look {
+                theme,
+                ..Look::default()
+            };
+            let walls = Points {
+                id: Vec::new(),
+                position: Default::default(),
+                speed: Vec::new(),
+                columns: Vec::new(),
+                ..points.clone()
+            };
+            let [with, without] =
+                [&points, &walls].map(|it| field(it, &home, &look, width, height));
+            let pixels = || with.pixels().iter().zip(without.pixels());
+            let ground = theme.background;
+            let mut seen: Vec<f64> = pixels()
+                .filter(|(a, b)| a != b)
+                .map(|(&a, _)| Rgb(a).contrast(ground))
+                .collect();
+            assert!(seen.len() > width * height / 40, "{}", seen.len());
+            seen.sort_by(f64::total_cmp);
+            let [low, middle] = [seen[seen.len() / 10], seen[seen.len() / 2]];
+            assert!(
+                low > 1.6 && middle > 2.2,
+                "{width} {theme:?} {low} {middle}"
+            );
+            // Walls are a veil, and no fog.
+            let mut fog: Vec<f64> = pixels().map(|(_, &b)| Rgb(b).contrast(ground)).collect();
+            fog.sort_by(f64::total_cmp);
+            let thick = fog[fog.len() * 19 / 20];
+            assert!(thick < 2.0, "{width} {theme:?} {thick}");
+            // The front edges of their box are not drawn over the fluid.
+            let alone = field(
+                &Points {
+                    wall_position: Vec::new(),
+                    ..points.clone()
+                },
+                &Home {
+                    walls: None,
+                    ..home.clone()
+                },
+                &look,
+                width,
+                height,
+            );
+            let same = pixels().zip(alone.pixels());
+            let inside = same.filter(|((a, b), _)| a != b);
+            let (equal, all) = inside.fold((0, 0), |(equal, all), ((a, _), c)| {
+                (equal + usize::from(a == c), all + 1)
+            });
+            assert!(equal * 10 > all * 7, "{width} {equal} of {all}");
+        }
+    }
+}
+
 #[test]
 fn a_terminal_gets_the_particles_of_the_picture() {
     let (points, home, history) = dam();

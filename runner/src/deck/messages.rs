@@ -52,7 +52,7 @@ pub enum Report {
     Opened(Box<Opened>),
     /// It cannot be set up; the deck has ended.
     Failed(String),
-    /// A new picture, with the status that belongs to it.
+    /// A new picture, with the status that belongs to it; its state was measured before.
     Shot(Box<Shot>),
     /// The status after a command.
     Status(Status),

@@ -109,6 +109,10 @@ struct Worker {
     due: Option<Instant>,
     /// The state has changed since.
     changed: bool,
+    /// The direction in which the state was reached.
+    travel: Arrow,
+    /// The state has been measured.
+    measured: bool,
     /// A picture that the face has done with.
     spare: Option<Box<Points>>,
 }
@@ -148,6 +152,8 @@ impl Worker {
             keeper: Keeper::default(),
             due: None,
             changed: true,
+            travel: Arrow::Forward,
+            measured: false,
             spare: None,
             span: plan.out as i64,
         }
@@ -245,6 +251,8 @@ impl Worker {
     /// What is due after a piece of steps.
     fn moved(&mut self, travel: Arrow) {
         self.changed = true;
+        self.travel = travel;
+        self.measured = false;
         let position = self.player.position();
         self.excursion = self.excursion.max(position);
         if position.rem_euclid(self.every) == 0 {
@@ -268,6 +276,7 @@ impl Worker {
 
     /// Measures the state, and marks it or compares it with the marks.
     fn measure(&mut self, travel: Arrow, regular: bool) {
+        self.measured = true;
         let leg = match travel {
             Arrow::Forward => 1,
             Arrow::Backward => 2,
@@ -299,7 +308,11 @@ impl Worker {
                 None => compare(),
             };
         }
-        if let Some(report) = self.beside(|companion| companion.measure(travel)) {
+        // The other one is compared at rows.
+        let compared = regular || !self.playing;
+        if let Some(Some(report)) =
+            self.beside(|companion| compared.then(|| companion.measure(travel)).transpose())
+        {
             (self.tell)(report);
         }
         (self.tell)(Report::Moment(Box::new(Moment {
@@ -345,6 +358,7 @@ impl Worker {
         }
         self.playing = false;
         self.seek = None;
+        self.measured = false;
         self.stand();
         (self.tell)(Report::Fault(RangedFault::of(&self.player, fault)));
         self.report();
@@ -391,6 +405,10 @@ impl Worker {
         if !self.ready.swap(false, Ordering::Acquire) {
             // The face is still at the last one.
             return wait.min(Duration::from_millis(2));
+        }
+        // The numbers beside a picture are those of the picture.
+        if !self.measured {
+            self.measure(self.travel, false);
         }
         let mut points = self.spare.take().unwrap_or_default();
         match self.player.points(&mut points) {

@@ -15,7 +15,7 @@ use super::superfluid::Superfluid;
 use super::viscous::Viscous;
 use super::wcsph::{Fluid, WallPotential, Water};
 use super::words::{Dimension, Integrator, Overlap};
-use crate::time_unit::TimeUnit;
+use crate::figures::Scale;
 use loschmidt_core::schemes::solid::Material;
 use std::collections::HashMap;
 
@@ -231,8 +231,8 @@ impl Scene {
 
     /// The unit in which people read the times of the scene.
     #[must_use]
-    pub fn time_unit(&self) -> TimeUnit {
-        TimeUnit::of(self.steps_out() as f64 * self.time_step())
+    pub fn time_unit(&self) -> Scale {
+        Scale::of(self.steps_out() as f64 * self.time_step(), "s")
     }
 
     /// Steps until the turnaround, or of the whole run when there is none; at least 1.

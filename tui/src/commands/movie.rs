@@ -5,14 +5,15 @@ use crate::cli::{MovieArguments, WorkArguments};
 use crate::exit::{Failure, USAGE, tell};
 use crate::progress::Pictures;
 use crate::stop::Stop;
+use loschmidt_runner::figures::quantity;
 use loschmidt_runner::plain::quote;
-use loschmidt_runner::scene::{self, Scene};
+use loschmidt_runner::scene::{self, Dimension, Scene};
 use loschmidt_runner::{ArithmeticKind, Options, Player, RunError, setup};
 use loschmidt_viewer::movie::{
-    Ending, Fate, Movie, MovieError, MovieStyle, Stored, free_directory,
+    CameraPath, Ending, Fate, Movie, MovieError, MovieStyle, Stored, free_directory,
 };
 use loschmidt_viewer::movie::{gif, mp4, target};
-use loschmidt_viewer::{Colouring, Look, Picture};
+use loschmidt_viewer::{Colouring, Look, Picture, View};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -132,6 +133,7 @@ fn style(
     scene: &Scene,
 ) -> Result<MovieStyle, Failure> {
     refuse_foreign_colours(&arguments.color, scene)?;
+    refuse_foreign_views(arguments, scene)?;
     let seconds = arguments.seconds.unwrap_or(seconds);
     let pictures = (seconds * f64::from(arguments.fps)).round() as usize;
     if !(2..=MOST_PICTURES).contains(&pictures) {
@@ -152,10 +154,40 @@ fn style(
             colouring: arguments.color.clone(),
             colormap: arguments.colormap.map(Into::into),
             theme: arguments.theme.into(),
+            view: View::default().zoomed(arguments.zoom.unwrap_or(1.0)),
             ..Look::default()
         },
         tint,
+        camera: CameraPath {
+            rectangle: arguments.view,
+            orbit: arguments.orbit,
+        },
     })
+}
+
+/// A rectangle of the plane for a scene in space, and the other way round.
+fn refuse_foreign_views(arguments: &MovieArguments, scene: &Scene) -> Result<(), Failure> {
+    let space = scene.dimension == Dimension::Three;
+    let (flag, place, help) = match (arguments.view, arguments.orbit, space) {
+        (Some(_), _, true) => (
+            "--view",
+            "in space",
+            "--zoom and --orbit are for scenes in space",
+        ),
+        (_, true, false) => (
+            "--orbit",
+            "in the plane",
+            "--view and --zoom are for scenes in the plane",
+        ),
+        _ => return Ok(()),
+    };
+    Err(Failure::new(
+        USAGE,
+        format!(
+            "error: {flag} cannot be used: `{}` is {place}\nhelp: {help}",
+            scene.name
+        ),
+    ))
 }
 
 /// Colours by a number that the particles of the scene do not have.
@@ -293,11 +325,8 @@ fn sentence(fate: &Fate) -> String {
             format!("{arithmetic} point came home: every bit of the last state equals the first\n")
         }
         Some(home) => {
-            let far = match home.error {
-                error if error < 0.001 => format!("{error:.1e}"),
-                error => format!("{error:.3}"),
-            };
-            format!("{arithmetic} point did not come home: a particle is up to {far} m away\n")
+            let far = quantity(home.error, "m", 3);
+            format!("{arithmetic} point did not come home: a particle is up to {far} away\n")
         }
     }
 }

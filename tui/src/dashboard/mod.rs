@@ -69,7 +69,8 @@ pub fn run(request: Request, options: Options, stop: &Stop) -> Result<ExitCode, 
     terminal.listen(dashboard.sender.clone());
     let ended = guarded(|| dashboard.play(&mut terminal, &inbox, stop));
     let interrupted = stop.load(Ordering::Relaxed);
-    let kept = dashboard.keep_at_the_end(&inbox);
+    let cut_short = interrupted || !matches!(ended, Ok(Ok(())));
+    let kept = dashboard.keep_at_the_end(&inbox, cut_short);
     drop(terminal);
     drop(dashboard);
     match kept {
@@ -226,6 +227,7 @@ impl Dashboard {
     fn keep_at_the_end(
         &mut self,
         inbox: &Receiver<DashboardMessage>,
+        cut_short: bool,
     ) -> Result<Option<PathBuf>, LostState> {
         let present = self.state.session.deck;
         let next = |end: Instant| loop {
@@ -237,6 +239,7 @@ impl Dashboard {
                 return Some(*report);
             }
         };
-        self.host.keep_at_the_end(&mut self.state.session, next)
+        let session = &mut self.state.session;
+        self.host.keep_at_the_end(session, cut_short, next)
     }
 }

@@ -1,6 +1,10 @@
-//! Colours, colour maps and themes. All arithmetic is that of integers.
+//! Colours, colour maps and themes. Colours are mixed in integers; which part of a map can be told
+//! from a ground is a matter of `contrast`.
 
+mod contrast;
 mod tables;
+
+pub use contrast::{ENOUGH, Palette};
 
 use tables::{CIVIDIS, COOLWARM, MAGMA, VIRIDIS};
 

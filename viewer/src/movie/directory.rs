@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `frame-00000.png`, … | the pictures |
 //! | `movie.json` | [`MovieManifest`]: what they show, and whether all are there |
-//! | `state-0.snapshot`, `series-0.csv` (and `-1` for a second run) | where an interrupted export goes on |
+//! | `state-0.snapshot`, `series-0.csv` (and `-1` for a second run), `views.csv` | where an interrupted export goes on |
 //!
 //! Every file is written beside its place and renamed, so that there is the old one or the new one,
 //! never half of one.
@@ -24,6 +24,9 @@ use std::time::Instant;
 
 const MANIFEST: &str = "movie.json";
 const LOCK: &str = ".lock";
+
+/// The boxes that the pictures show.
+const VIEWS: &str = "views.csv";
 
 /// `movie.json`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -175,7 +178,7 @@ impl Movie {
             remove(&self.state_path(run))?;
             remove(&self.series_path(run))?;
         }
-        Ok(())
+        remove(&self.views_path())
     }
 
     fn write_manifest(&self) -> Result<(), MovieError> {
@@ -187,6 +190,10 @@ impl Movie {
 
     pub(super) fn state_path(&self, run: usize) -> PathBuf {
         self.path.join(format!("state-{run}.snapshot"))
+    }
+
+    pub(super) fn views_path(&self) -> PathBuf {
+        self.path.join(VIEWS)
     }
 
     pub(super) fn series_path(&self, run: usize) -> PathBuf {
@@ -262,6 +269,7 @@ fn is_ours(name: &str) -> bool {
         middle.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
     };
     name == MANIFEST
+        || name == VIEWS
         || number("frame-", ".png")
         || number("state-", ".snapshot")
         || number("series-", ".csv")

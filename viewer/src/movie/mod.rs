@@ -8,6 +8,7 @@
 //! [`Movie::simulate`] or [`Movie::render`] fill it; [`gif::write`] and [`mp4::write`] make
 //! one file of the pictures.
 
+mod camera;
 mod directory;
 mod error;
 pub mod gif;
@@ -17,6 +18,7 @@ mod simulate;
 mod stored;
 pub mod target;
 
+pub use camera::CameraPath;
 pub use directory::{Movie, MovieManifest, free_directory, picture_name};
 pub use error::MovieError;
 pub use schedule::Schedule;
@@ -42,6 +44,8 @@ pub struct MovieStyle {
     pub look: Look,
     /// A picture to be laid over the initial state, instead of the look's colouring.
     pub tint: Option<Picture>,
+    /// Where the camera goes.
+    pub camera: CameraPath,
 }
 
 impl Default for MovieStyle {
@@ -53,6 +57,7 @@ impl Default for MovieStyle {
             pictures: 300,
             look: Look::default(),
             tint: None,
+            camera: CameraPath::default(),
         }
     }
 }
@@ -74,8 +79,8 @@ impl MovieStyle {
         });
         let digest = loschmidt_core::digest::hash(&tint);
         format!(
-            "{:?} {} fps {} pictures {look:?} tint {width} {digest:?}",
-            self.size, self.fps, self.pictures
+            "{:?} {} fps {} pictures {look:?} {:?} tint {width} {digest:?}",
+            self.size, self.fps, self.pictures, self.camera
         )
     }
 

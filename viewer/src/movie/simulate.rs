@@ -4,6 +4,7 @@
 //! step; that is where an interrupted export goes on. The plots have a point for every row that a run
 //! would record, and for every picture.
 
+use super::camera::Views;
 use super::directory::{Movie, replace};
 use super::error::MovieError;
 use super::{MovieProgress, Schedule};
@@ -11,6 +12,7 @@ use crate::draw::{Look, Pane, draw};
 use crate::history::History;
 use crate::home::Home;
 use loschmidt_core::digest::hash;
+use loschmidt_runner::figures::count;
 use loschmidt_runner::output::Snapshot;
 use loschmidt_runner::output::series::{self, SeriesWriter};
 use loschmidt_runner::player::Return;
@@ -64,6 +66,7 @@ impl Strand {
 struct Export<'a> {
     strands: Vec<Strand>,
     home: Home,
+    views: Views,
     look: Look,
     schedule: Schedule,
     plan: Plan,
@@ -140,10 +143,15 @@ impl<'a> Export<'a> {
                 player,
             });
         }
-        let (Some(home), Some(plan)) = (home, plan) else {
+        let (Some(mut home), Some(plan)) = (home, plan) else {
             return Err(MovieError::Run(loschmidt_runner::RunError::NoRows));
         };
+        let camera = movie.style.camera;
+        if let Some(rectangle) = camera.rectangle {
+            home.show_only(rectangle);
+        }
         Ok(Self {
+            views: Views::new(&camera, plan.back == plan.out),
             look: movie.style.look(&home),
             schedule: Schedule::new(&plan, movie.style.pictures),
             plan,
@@ -197,19 +205,19 @@ impl<'a> Export<'a> {
     /// Measures the runs and draws picture `n`, unless it is there.
     fn picture(&mut self, movie: &mut Movie, n: usize) -> Result<(), MovieError> {
         let began = Instant::now();
-        let wanted = n >= movie.found();
+        let (wanted, total) = (n >= movie.found(), movie.style.pictures);
         let mut pictures: Vec<Points> = Vec::new();
         for strand in &mut self.strands {
             strand.measure(self.schedule.out)?;
             let player = &mut strand.player;
-            if wanted {
-                let mut points = Points::default();
-                player
-                    .points(&mut points)
-                    .map_err(|fault| fault_of(player, fault))?;
-                pictures.push(points);
-            }
+            let mut points = Points::default();
+            player
+                .points(&mut points)
+                .map_err(|fault| fault_of(player, fault))?;
+            pictures.push(points);
         }
+        self.views
+            .next(&mut self.home, &self.schedule, pictures.iter());
         movie.times.simulating += began.elapsed();
         if !wanted {
             return Ok(());
@@ -218,7 +226,7 @@ impl<'a> Export<'a> {
         let look = Look {
             turn: self.schedule.turn(n, movie.style.fps),
             caption: self.caption(n),
-            ..self.look.clone()
+            ..movie.style.camera.look(&self.look, n, total)
         };
         let panes: Vec<Pane<'_>> = self
             .strands
@@ -246,7 +254,7 @@ impl<'a> Export<'a> {
 
     /// What stands under the title: at the end, whether the first run is at home.
     fn caption(&mut self, n: usize) -> String {
-        let particles = self.strands[0].player.particles() as usize;
+        let particles = self.strands[0].player.particles();
         if self.comes_home && n + 1 == self.schedule.pictures {
             let exact = self.strands[0].player.compare_with_home().is_exact();
             return if exact {
@@ -255,7 +263,7 @@ impl<'a> Export<'a> {
                 "not home".to_owned()
             };
         }
-        format!("{} particles", with_commas(particles))
+        format!("{} particles", count(particles))
     }
 
     fn ending(&mut self) -> Ending {
@@ -292,7 +300,7 @@ impl<'a> Export<'a> {
             })?;
             replace(&movie.state_path(n), |file| snapshot.write(file))?;
         }
-        Ok(())
+        self.views.write(movie)
     }
 
     /// Takes the runs to where an earlier export kept them, and returns the first picture that is
@@ -317,6 +325,9 @@ impl<'a> Export<'a> {
         let Some(picture) = picture.filter(|_| same && last == Some(step)) else {
             return Ok(0);
         };
+        if !self.views.read(&mut self.home, movie, picture + 1) {
+            return Ok(0);
+        }
         for (strand, (snapshot, rows)) in self.strands.iter_mut().zip(loaded) {
             let restored =
                 strand
@@ -349,17 +360,4 @@ fn fault_of(player: &Player, fault: loschmidt_core::Fault) -> MovieError {
         time: fault.step as f64 * player.scene().time_step(),
         fault: RangedFault::of(player, fault),
     }
-}
-
-/// 5,000 for 5000.
-pub(super) fn with_commas(n: usize) -> String {
-    let digits = n.to_string();
-    let mut text = String::new();
-    for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }

@@ -2,16 +2,18 @@
 
 use super::directory::Movie;
 use super::error::MovieError;
-use super::simulate::with_commas;
 use super::{MovieProgress, MovieStyle, Schedule};
 use crate::draw::{Look, Pane, draw};
+use crate::framing;
 use crate::history::History;
-use crate::home::Home;
+use crate::home::{Box3, Home};
+use loschmidt_runner::figures::count;
 use loschmidt_runner::output::particles_csv;
 use loschmidt_runner::output::{Manifest, OutputError, RunDirectory, RunStatus, frame_path};
 use loschmidt_runner::scene::{Scene, Source, load};
 use loschmidt_runner::setup;
 use loschmidt_runner::{Frame, Plan, Points, RunError};
+use rayon::prelude::*;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -136,6 +138,25 @@ impl Stored {
         })
     }
 
+    /// The regions of the frames that these pictures show, as far as they are read before `stop`
+    /// becomes true: then no picture is drawn any more.
+    fn regions(&self, schedule: &Schedule, stop: &AtomicBool) -> Result<Vec<Box3>, MovieError> {
+        let pictures = 0..schedule.pictures;
+        let mut frames: Vec<usize> = pictures.map(|n| self.nearest(schedule.step(n))).collect();
+        // A frame of the way back is that of the way out, where the run came home; this does not
+        // rely on it.
+        frames.dedup();
+        let regions = frames.into_par_iter().map(|index| {
+            if stop.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            let points = Points::from(&self.frame(index)?);
+            Ok(framing::region(&points, self.scene.particle_spacing))
+        });
+        let regions: Result<Vec<Option<Box3>>, MovieError> = regions.collect();
+        Ok(regions?.into_iter().flatten().collect())
+    }
+
     /// The stored frame nearest to a step, the earlier one of two.
     fn nearest(&self, step: u64) -> usize {
         let after = self.steps.partition_point(|&s| s < step);
@@ -164,7 +185,13 @@ impl Movie {
         run.suffices(&self.style)?;
         let schedule = Schedule::new(&run.plan, total);
         let first = run.frame(0)?;
-        let home = Home::new(&run.scene, &first);
+        let mut home = Home::new(&run.scene, &first);
+        let began = Instant::now();
+        match self.style.camera.rectangle {
+            Some(rectangle) => home.show_only(rectangle),
+            None => home.show_all(run.regions(&schedule, stop)?),
+        }
+        self.times.reading += began.elapsed();
         let look = self.style.look(&home);
         for n in self.found()..total {
             if stop.load(Ordering::Relaxed) {
@@ -184,8 +211,8 @@ impl Movie {
             let history = run.history.until(run.steps[index]);
             let look = Look {
                 turn: schedule.turn(n, self.style.fps),
-                caption: format!("{} particles", with_commas(points.len())),
-                ..look.clone()
+                caption: format!("{} particles", count(points.len() as u64)),
+                ..self.style.camera.look(&look, n, total)
             };
             let (width, height) = self.style.size;
             let raster = draw(&[Pane::new(&points, &history)], &home, &look, width, height);

@@ -95,7 +95,7 @@ impl Host {
         report: impl Fn(u64, Report) + Send + 'static,
     ) {
         match effect {
-            Effect::Deck(command) => self.send(command),
+            Effect::Deck(command) => self.obey(session, command),
             Effect::Open(request) => match request.opening(self.options) {
                 Ok(opening) => self.open(session, request, opening, report),
                 Err(why) => {
@@ -111,6 +111,12 @@ impl Host {
             Effect::Keep => self.keep(session),
             Effect::Quit => session.leaving = true,
         }
+    }
+
+    /// Passes on what the user wants.
+    fn obey(&self, session: &mut Session, command: Command) {
+        session.acted |= !matches!(command, Command::Pace(_) | Command::Reuse(_));
+        self.send(command);
     }
 
     fn send(&self, command: Command) {
@@ -129,21 +135,24 @@ impl Host {
         if let Some(stage) = &session.stage {
             self.send(Command::Keep {
                 path: free_directory_in(folder, &stage.home.name),
-                rows: stage.track.rows(),
+                rows: stage.series.rows(),
             });
         }
     }
 
     /// Keeps what would be lost; the directory to go on from, where there is something to go on
-    /// with. Where the present folder cannot be written to, that is one for temporary files.
-    /// `next`: the next report of the present deck, waited for until then. A deck that is still
-    /// setting up its scene is left alone, and ends with the program.
+    /// with. Who has only watched loses nothing by leaving; where the program is `cut_short`, by a
+    /// signal or a defect, nobody knows what was meant, and the state is kept all the same. Where the
+    /// present folder cannot be written to, that is in one for temporary files. `next`: the next
+    /// report of the present deck, waited for until then. A deck that is still setting up its scene is
+    /// left alone, and ends with the program.
     ///
     /// # Errors
     /// The state is lost.
     pub fn keep_at_the_end(
         &mut self,
         session: &mut Session,
+        cut_short: bool,
         mut next: impl FnMut(Instant) -> Option<Report>,
     ) -> Result<Option<PathBuf>, LostState> {
         self.send(Command::Play(false));
@@ -153,7 +162,7 @@ impl Host {
         {
             deck.leave();
         }
-        if session.unsaved() {
+        if session.unsaved() && (session.acted || cut_short) {
             self.keep(session);
             return match heard_of_keeping(&mut next) {
                 Err(LostState::NotWritten(_)) => {

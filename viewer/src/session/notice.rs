@@ -1,6 +1,8 @@
 //! Notices: what a user is told of what happened.
 
+use super::state::Face;
 use loschmidt_runner::deck::{Meddling, Perturbation};
+use loschmidt_runner::figures::quantity;
 use loschmidt_runner::{ArithmeticKind, Arrow};
 use std::time::Duration;
 
@@ -56,10 +58,15 @@ pub(super) fn turned(arrow: Arrow, arithmetic: ArithmeticKind) -> (Tone, &'stati
 }
 
 /// What is told when the state was changed by hand. `quantum`: what a last bit is, m.
-pub(super) fn meddled(meddling: &Meddling, quantum: f64) -> String {
+pub(super) fn meddled(meddling: &Meddling, quantum: f64, face: Face) -> String {
     match meddling.what {
         Perturbation::Flipped(particle) => {
-            format!("particle {particle}: last bit flipped, it stands {quantum:.1e} m aside")
+            let aside = quantity(quantum, "m", 2);
+            let mark = match face {
+                Face::Dashboard => "✱ is ",
+                Face::Window => "in the ring, ",
+            };
+            format!("{mark}particle {particle}: last bit flipped, it stands {aside} aside")
         }
         Perturbation::Switched(ArithmeticKind::Float) => {
             "floating point from here on: the same terms, their sums rounded".to_owned()

@@ -4,6 +4,7 @@ use crate::colour::Rgb;
 use crate::home::Home;
 use crate::picture::Picture;
 use crate::track::Track;
+use loschmidt_core::observe::BINS;
 use loschmidt_runner::deck::{Beside, Moment, Opened, Perturbation, Status};
 use loschmidt_runner::run::Row;
 use loschmidt_runner::{Arrow, Points};
@@ -29,12 +30,17 @@ pub struct StagedScene {
     pub points: Points,
     /// Where everything is.
     pub status: Status,
-    /// Energies and entropies of both ways.
+    /// Energies and entropies of both ways, as they are plotted.
     pub track: Track,
+    /// The same at the steps of the series, as they are kept.
+    pub series: Track,
     /// The other arithmetic, where it is played too.
     pub other: Option<OtherPlayer>,
     /// The colours of the particles from a picture, in the order of the ids.
     pub tint: Option<Arc<[Rgb]>>,
+    /// The end of the axis of speeds, m/s: it follows the fastest particles, smoothly, and never
+    /// comes back.
+    pub fastest: f64,
     /// The latest state that was measured.
     pub moment: Option<Box<Moment>>,
     /// Where on the bar the mouse or a key wants to go, steps; until the deck says that it goes
@@ -57,6 +63,7 @@ impl StagedScene {
         let points = Points::from(&opened.home);
         Self {
             status: opened.status.clone(),
+            series: track.clone(),
             track,
             other: beside.then(|| OtherPlayer {
                 points: points.clone(),
@@ -64,12 +71,34 @@ impl StagedScene {
             }),
             points,
             tint: tint.map(|picture| picture.tint(&home).into()),
+            fastest: 0.0,
             moment: None,
             wanted: None,
             turning: false,
             home,
             opened,
         }
+    }
+
+    /// Takes what was measured.
+    pub(super) fn note(&mut self, moment: Box<Moment>) {
+        /// Parts of the bar of time that curves have points for.
+        const POINTS: i64 = 400;
+        if moment.regular {
+            self.track.push(moment.row.clone(), moment.travel);
+            self.series.push(moment.row.clone(), moment.travel);
+        } else {
+            let apart = (self.span() / POINTS).max(1);
+            self.track.push_between(&moment.row, moment.travel, apart);
+        }
+        self.fastest = axis_of_speeds(&moment, self.fastest);
+        self.moment = Some(moment);
+    }
+
+    /// Lets the view grow with the fluid.
+    pub(super) fn follow(&mut self) {
+        let other = self.other.as_ref().map(|other| &other.points);
+        self.home.follow(std::iter::once(&self.points).chain(other));
     }
 
     /// The direction of time as the user has it: a turn that was asked for is shown at once.
@@ -119,6 +148,14 @@ impl StagedScene {
             })
     }
 
+    /// Where that particle is, m.
+    #[must_use]
+    pub fn flipped_at(&self) -> Option<[f64; 3]> {
+        let particle = self.flipped()?;
+        let place = self.points.id.iter().position(|&id| id == particle)?;
+        Some(self.points.at(place))
+    }
+
     /// Takes what the player in the other arithmetic says.
     pub(super) fn hear(&mut self, beside: Beside) {
         let Some(other) = &mut self.other else { return };
@@ -128,4 +165,28 @@ impl StagedScene {
             Beside::Ended(_) => {}
         }
     }
+}
+
+/// The end of the axis of speeds after this moment, from where it was before: it goes a part of the
+/// way to the speed that all but one particle in 500 stay below, and the fitted curve too.
+fn axis_of_speeds(moment: &Moment, before: f64) -> f64 {
+    /// Part of the way.
+    const PART: f64 = 0.15;
+    let histogram = &moment.histogram;
+    let total: u64 = histogram.counts.iter().map(|&c| u64::from(c)).sum();
+    let mut slower = 0;
+    let bins = histogram.counts.iter().take_while(|&&count| {
+        let before = slower;
+        slower += u64::from(count);
+        before * 500 < total * 499
+    });
+    let mut wanted = bins.count() as f64 * histogram.bin_width;
+    if let Some(t) = moment.row.fitted_temperature_m2_per_s2 {
+        wanted = wanted.max(3.2 * t.sqrt());
+    }
+    let all = BINS as f64 * histogram.bin_width;
+    let wanted = wanted.min(all);
+    // At rest there is an axis as well.
+    let before = before.max(all / 5.0);
+    before + PART * (wanted - before).max(0.0)
 }

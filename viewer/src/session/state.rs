@@ -90,6 +90,9 @@ pub struct Session {
     pub drag: Option<Drag>,
     /// What was kept last.
     pub kept: Option<Kept>,
+    /// The user has done something to the scene: turned time, played or paused, stepped, gone
+    /// somewhere, changed its state.
+    pub acted: bool,
     /// The program ends.
     pub leaving: bool,
 }
@@ -112,6 +115,7 @@ impl Session {
             notice: None,
             drag: None,
             kept: None,
+            acted: false,
             leaving: false,
         }
     }

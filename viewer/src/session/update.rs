@@ -49,6 +49,7 @@ pub fn update(session: &mut Session, message: Message) -> Vec<Effect> {
             session.overlay = Overlay::None;
             session.notice = None;
             session.kept = None;
+            session.acted = false;
             session.drag = None;
             session.look.view = View::default();
         }
@@ -118,7 +119,12 @@ fn on_report(session: &mut Session, report: Report) -> Option<Points> {
         Report::Opened(_) | Report::Failed(_) => {}
         Report::Shot(shot) => {
             stage.status = shot.status;
-            return Some(std::mem::replace(&mut stage.points, shot.points));
+            let before = std::mem::replace(&mut stage.points, shot.points);
+            // Who has chosen a part of the scene keeps it.
+            if session.look.view.is_of_the_whole() {
+                stage.follow();
+            }
+            return Some(before);
         }
         Report::Status(status) => {
             // A drag goes on wanting; the wish of a key or a click is under way now.
@@ -127,12 +133,7 @@ fn on_report(session: &mut Session, report: Report) -> Option<Points> {
             }
             stage.status = status;
         }
-        Report::Moment(moment) => {
-            if moment.regular {
-                stage.track.push(moment.row.clone(), moment.travel);
-            }
-            stage.moment = Some(moment);
-        }
+        Report::Moment(moment) => stage.note(moment),
         Report::Beside(beside) => {
             let ended = match &beside {
                 Beside::Ended(fault) => Some(fault.to_string()),
@@ -151,7 +152,7 @@ fn on_report(session: &mut Session, report: Report) -> Option<Points> {
             session.tell(tone, text);
         }
         Report::Meddled(meddling) => {
-            let text = meddled(&meddling, stage.opened.length_quantum);
+            let text = meddled(&meddling, stage.opened.length_quantum, session.face);
             session.tell(Tone::Warning, text);
         }
         Report::Arrived(arrival) => session.banner = Some(arrival),

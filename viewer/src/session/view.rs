@@ -68,7 +68,12 @@ impl Session {
             }
             Action::ZoomIn => look.view = look.view.zoomed(1.25),
             Action::ZoomOut => look.view = look.view.zoomed(0.8),
-            Action::ResetView => look.view = View::default(),
+            Action::ResetView => {
+                look.view = View::default();
+                if let Some(stage) = &mut self.stage {
+                    stage.follow();
+                }
+            }
             Action::PanLeft => self.pan([-1.0, 0.0]),
             Action::PanRight => self.pan([1.0, 0.0]),
             Action::PanDown => self.pan([0.0, -1.0]),

@@ -229,8 +229,8 @@ impl App {
     }
 
     /// Keeps what would be lost; the directory to go on from, where there is something to go on
-    /// with.
-    pub fn keep_at_the_end(&mut self) -> Result<Option<PathBuf>, WindowError> {
+    /// with. `failed`: the window has not ended well.
+    pub fn keep_at_the_end(&mut self, failed: bool) -> Result<Option<PathBuf>, WindowError> {
         if let Some(error) = self.error.take() {
             return Err(error);
         }
@@ -243,7 +243,9 @@ impl App {
                 return Some(report);
             }
         };
-        Ok(self.host.keep_at_the_end(&mut self.state.session, next)?)
+        let cut_short = failed || self.stop.load(Ordering::Relaxed);
+        let session = &mut self.state.session;
+        Ok(self.host.keep_at_the_end(session, cut_short, next)?)
     }
 }
 

@@ -3,10 +3,11 @@
 use super::places::Places;
 use super::state::WindowState;
 use super::{sheets, strip};
+use crate::camera::Projection;
 use crate::colour::Rgb;
 use crate::draw::{Pane, draw_on};
 use crate::look::Look;
-use crate::raster::{Pixels, Raster, Rect};
+use crate::raster::{Mask, Pixels, Raster, Rect};
 use crate::session::{Overlay, Session, StagedScene, count};
 use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::{ArithmeticKind, Arrow};
@@ -28,6 +29,7 @@ pub fn compose_on(raster: &mut Pixels<'_>, state: &WindowState) {
         Some(stage) => {
             let places = Places::with(state, stage, size);
             picture(raster, session, stage, &places);
+            mark(raster, session, stage, &places);
             let below = places.picture.height;
             let rest = Rect::new(0, below, size.0, size.1.saturating_sub(below));
             raster.fill(rest, theme.panel, 255);
@@ -69,6 +71,20 @@ fn picture(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, plac
         ..Pane::new(&other.points, other.track.history())
     };
     draw_on(raster, &[first, second], &stage.home, &look, height);
+}
+
+/// A ring around the particle whose bit was flipped.
+fn mark(raster: &mut Pixels<'_>, session: &Session, stage: &StagedScene, places: &Places) {
+    let (field, view) = (places.field, &session.look.view);
+    let projection = Projection::new(&stage.home, view, field.width, field.height);
+    let Some(at) = stage.flipped_at().and_then(|x| projection.project(x)) else {
+        return;
+    };
+    let mut mask = Mask::new(field);
+    let centre = [at.x + field.x as f64, at.y + field.y as f64];
+    let radius = 0.6 * places.em as f64;
+    mask.ring(centre, radius, 0.2 * radius);
+    mask.paint(raster, session.look.theme.backward, 255);
 }
 
 /// The look with what follows from the state.

@@ -155,7 +155,7 @@ pub fn run(
     let mut app = App::new(state, options, handles, stop, arguments.log);
     app.open(request, opening);
     let ended = guarded(|| event_loop.run_app(&mut app));
-    let kept = app.keep_at_the_end()?;
+    let kept = app.keep_at_the_end(!matches!(ended, Ok(Ok(()))))?;
     match ended {
         Ok(Ok(())) => Ok(kept),
         Ok(Err(why)) => Err(WindowError::of_display(&format!("{why:?}"), true)),

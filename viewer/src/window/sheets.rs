@@ -9,6 +9,7 @@ use crate::session::{List, Panel, because, count};
 use crate::text::{self, TextStyle, Weight};
 use loschmidt_runner::ArithmeticKind;
 use loschmidt_runner::deck::Arrival;
+use loschmidt_runner::figures::quantity;
 
 /// A piece of a line: where it begins, in ems from the left of the sheet; what it says, and how.
 struct SheetText {
@@ -261,14 +262,14 @@ fn returned(arrival: &Arrival, theme: &Theme) -> Vec<SheetLine> {
 fn missed(arrival: &Arrival, theme: &Theme) -> Vec<SheetLine> {
     let c = &arrival.comparison;
     let story = format!(
-        "{} {} astray, the farthest {:.1e} m from home",
+        "{} {} astray, the farthest {} from home",
         count(c.astray as u64),
         if c.astray == 1 {
             "particle"
         } else {
             "particles"
         },
-        c.error
+        quantity(c.error, "m", 2)
     );
     let title = "Time did not come back";
     let mut lines = vec![

@@ -3,10 +3,10 @@
 use super::places::Places;
 use crate::colour::{Rgb, Theme};
 use crate::keys::{self, Action};
-use crate::plot::number;
 use crate::raster::{Mask, Pixels, Rect};
 use crate::session::{Session, StagedScene, Tone, count};
 use crate::text::{self, TextStyle, Weight};
+use loschmidt_runner::figures::{number, quantity};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 
 /// The colour of what is not as it should be.
@@ -80,10 +80,10 @@ fn bar(raster: &mut Pixels<'_>, stage: &StagedScene, places: &Places, theme: &Th
     let below = (y + 0.35 * em) as i64;
     let left = bar.x as f64 - em;
     let unit = stage.opened.scene.time_unit();
-    text::write_left_of(raster, &faint, left, below, &format!("0 {}", unit.name));
+    text::write_left_of(raster, &faint, left, below, &format!("0 {}", unit.name()));
     let end = span as f64 * stage.opened.scene.time_step();
     let right = (bar.x + bar.width) as f64 + em;
-    let end = format!("{} {}", number(unit.count(end)), unit.name);
+    let end = quantity(end, "s", 3);
     text::write(raster, &faint, right, below, &end);
 }
 
@@ -144,8 +144,9 @@ fn doing(stage: &StagedScene, theme: &Theme) -> Vec<ColouredText> {
         } else {
             "integrating on"
         };
-        let time = number(seek.target as f64 * dt);
-        format!("{verb} to {time} s: {} %", done * 100 / way)
+        let time = stage.opened.scene.time_unit();
+        let time = time.amount(seek.target as f64 * dt, 5);
+        format!("{verb} to {time}: {} %", done * 100 / way)
     } else if status.at_start {
         "at the start".to_owned()
     } else if status.playing {
@@ -164,14 +165,10 @@ fn doing(stage: &StagedScene, theme: &Theme) -> Vec<ColouredText> {
             theme.text,
             Weight::Medium,
         ),
-        (
-            format!("{} s/s", number(status.pace)),
-            theme.text,
-            Weight::Medium,
-        ),
+        (quantity(status.pace, "s/s", 3), theme.text, Weight::Medium),
     ];
     if status.steps_per_second > 0.0 {
-        let speed = format!("{} steps/s", number(status.steps_per_second));
+        let speed = format!("{} steps/s", number(status.steps_per_second, 3));
         let colour = if status.keeps_up {
             theme.faint
         } else {

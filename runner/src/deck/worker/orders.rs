@@ -84,6 +84,7 @@ impl Worker {
             companion.turn();
         }
         self.keep_good();
+        self.travel = self.player.arrow();
         self.stand();
         (self.tell)(Report::Turned(self.player.arrow()));
     }
@@ -121,6 +122,7 @@ impl Worker {
         self.meddling.push(meddling);
         // One particle at least is astray from now on, if any way is known.
         self.astray = self.astray.map(|n| n.max(1));
+        self.measured = false;
         self.keep_good();
         self.stand();
         (self.tell)(Report::Meddled(meddling));

@@ -66,7 +66,7 @@ impl Axis {
     /// are.
     pub fn exponent(&self) -> i32 {
         let largest = self.low.abs().max(self.high.abs());
-        if self.log || largest == 0.0 || (0.02..1e5).contains(&largest) {
+        if self.log || largest == 0.0 || (0.02..1e4).contains(&largest) {
             return 0;
         }
         libm::floor(libm::log10(largest)) as i32

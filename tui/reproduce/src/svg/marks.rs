@@ -15,6 +15,12 @@ pub enum Style {
     Line,
     /// Joined by dashes.
     Dashed,
+    /// Joined by dots, for a curve that others lie on.
+    Dotted,
+    /// Joined by dashes and dots.
+    DashDotted,
+    /// Joined by a broad pale line, for a curve that others lie on.
+    Broad,
     /// A disc at each.
     Dots,
     /// Joined, with a disc at each.
@@ -112,8 +118,8 @@ impl Series {
             }
             let _ = writeln!(
                 out,
-                "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>",
-                self.dashes()
+                "<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-linejoin=\"round\"{}/>",
+                self.stroke()
             );
         }
         if matches!(self.style, Style::Dots | Style::LineDots) {
@@ -148,11 +154,16 @@ impl Series {
         out.push('\n');
     }
 
-    fn dashes(&self) -> &'static str {
-        if self.style == Style::Dashed {
-            " stroke-dasharray=\"6 4\""
-        } else {
-            ""
+    /// Width and pattern of the line: no two styles are alike, in black and white either.
+    fn stroke(&self) -> &'static str {
+        match self.style {
+            Style::Dashed => " stroke-width=\"1.6\" stroke-dasharray=\"6 4\"",
+            Style::Dotted => {
+                " stroke-width=\"2.4\" stroke-linecap=\"round\" stroke-dasharray=\"0.1 5\""
+            }
+            Style::DashDotted => " stroke-width=\"1.6\" stroke-dasharray=\"9 3 2 3\"",
+            Style::Broad => " stroke-width=\"5\" stroke-opacity=\"0.4\"",
+            Style::Line | Style::LineDots | Style::Dots | Style::Bars => " stroke-width=\"1.6\"",
         }
     }
 
@@ -164,8 +175,8 @@ impl Series {
             x + 11.0
         );
         let stroke = format!(
-            "<path d=\"M{x:.1} {y:.1}h22\" stroke=\"{colour}\" stroke-width=\"2\"{}/>",
-            self.dashes()
+            "<path d=\"M{x:.1} {y:.1}h22\" stroke=\"{colour}\"{}/>",
+            self.stroke()
         );
         match self.style {
             Style::Dots => disc,
@@ -174,7 +185,29 @@ impl Series {
                 "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"22\" height=\"10\" fill=\"{colour}\" fill-opacity=\"0.5\"/>",
                 y - 5.0
             ),
-            Style::Line | Style::Dashed => stroke,
+            Style::Line | Style::Dashed | Style::Dotted | Style::DashDotted | Style::Broad => {
+                stroke
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_told_apart_without_colours() {
+        let styles = [
+            Style::Line,
+            Style::Dashed,
+            Style::Dotted,
+            Style::DashDotted,
+            Style::Broad,
+        ];
+        let strokes = styles.map(|style| styled("", 0, style, std::iter::empty()).stroke());
+        for (n, stroke) in strokes.iter().enumerate() {
+            assert!(!strokes[..n].contains(stroke), "{stroke}");
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Words and numbers: escaped, with subscripts, powers of ten and a true minus.
 
+use loschmidt_runner::figures;
+
 /// Text that may stand in XML.
 #[must_use]
 pub fn escaped(text: &str) -> String {
@@ -74,21 +76,15 @@ pub fn power(exponent: i32) -> String {
     }
 }
 
-/// A number with a true minus, at most four places and no trailing zeros.
+/// A number with a true minus, at most five digits and no trailing zeros.
 #[must_use]
 pub fn number(x: f64) -> String {
-    let text = format!("{:.4}", x.abs());
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if x < 0.0 && text != "0" {
-        format!("−{text}")
-    } else {
-        text.to_owned()
-    }
+    figures::number(x, 5)
 }
 
 /// A positive number on a logarithmic axis: plain where that is short.
 pub(super) fn logarithmic(digit: f64, exponent: i32) -> String {
-    if (-2..=4).contains(&exponent) {
+    if (-2..=3).contains(&exponent) {
         number(digit * libm::pow(10.0, f64::from(exponent)))
     } else if digit == 1.0 {
         power(exponent)

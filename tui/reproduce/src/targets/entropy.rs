@@ -147,23 +147,31 @@ pub fn fig6(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         x_label: "t, s".to_owned(),
         y_label: "reduced Boltzmann entropy".to_owned(),
         series: vec![
-            svg::line("out", 0, past.out().map(|row| [row.time_s, row.entropy])),
+            // The way back lies on the way out, and the equilibria nearly on one another.
+            svg::styled(
+                "out",
+                0,
+                Style::Broad,
+                past.out().map(|row| [row.time_s, row.entropy]),
+            ),
             svg::styled(
                 "back",
                 1,
                 Style::Dashed,
                 past.back().map(|row| [row.time_s, row.entropy]),
             ),
-            svg::line(
+            svg::styled(
                 "equilibrium of the energy (21)",
                 2,
+                Style::DashDotted,
                 past.out()
                     .filter(moving)
                     .filter_map(|row| Some([row.time_s, row.equilibrium_entropy_of_energy?])),
             ),
-            svg::line(
+            svg::styled(
                 "equilibrium of the fit (20)",
-                4,
+                6,
+                Style::Dotted,
                 past.out()
                     .filter(moving)
                     .filter_map(|row| Some([row.time_s, row.equilibrium_entropy_of_fit?])),

@@ -1,7 +1,7 @@
 //! The start was reached: is everything as it was?
 
 use super::ink::Ink;
-use super::numbers::{count, short};
+use super::numbers::{count, quantity};
 use super::overlays::{StyledLine, sheet};
 use loschmidt_runner::ArithmeticKind;
 use loschmidt_runner::deck::Arrival;
@@ -80,7 +80,7 @@ fn missed(arrival: &Arrival, ink: &Ink) -> Vec<StyledLine> {
                 ink.bold(),
             ),
             (" astray, the farthest ".to_owned(), ink.text()),
-            (format!("{} m", short(c.error)), ink.bold()),
+            (quantity(c.error, "m", 3), ink.bold()),
             (" from home".to_owned(), ink.text()),
         ],
     ];

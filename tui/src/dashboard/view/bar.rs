@@ -1,7 +1,7 @@
 //! The foot: the bar of time, the notice, the keys that one needs most.
 
 use super::ink::Ink;
-use super::numbers::{count, short};
+use super::numbers::{count, quantity};
 use super::{Areas, Piece, width, write, write_right};
 use loschmidt_runner::Arrow;
 use loschmidt_viewer::session::StagedScene;
@@ -49,9 +49,9 @@ pub fn time(stage: &StagedScene, areas: &Areas, buf: &mut Buffer, ink: &Ink) {
     buf[(now, bar.y)].set_char('●').set_style(ink.bold());
     let left = Rect::new(0, bar.y, bar.x.saturating_sub(1), 1);
     let unit = stage.opened.scene.time_unit();
-    let zero = format!("0 {}", unit.name);
+    let zero = format!("0 {}", unit.name());
     write_right(buf, left, bar.y, &[(zero, ink.faint())]);
-    let end = format!("{} {}", short(unit.count(span as f64 * dt)), unit.name);
+    let end = quantity(span as f64 * dt, "s", 3);
     let right = Rect::new(
         bar.right() + 1,
         bar.y,
@@ -81,12 +81,8 @@ pub fn notice(
         } else {
             "integrating on"
         };
-        let unit = stage.opened.scene.time_unit();
-        let (time, unit) = (unit.count(time), unit.name);
-        pieces.push((
-            format!("{verb} to {time:.4} {unit}: {percent} %"),
-            ink.bold(),
-        ));
+        let time = stage.opened.scene.time_unit().amount(time, 5);
+        pieces.push((format!("{verb} to {time}: {percent} %"), ink.bold()));
         pieces.push(("   Esc stops".to_owned(), ink.faint()));
     } else if let Some(notice) = notice {
         let style = match notice.tone {
@@ -137,7 +133,10 @@ fn astray(stage: &StagedScene, ink: &Ink) -> Vec<Piece> {
             } else {
                 format!("meddled with {n} times")
             };
-            vec![(format!("{times} "), ink.of_colour(ink.theme.backward))]
+            let mark = stage.flipped().map_or(String::new(), |particle| {
+                format!("✱ particle {particle}, ",)
+            });
+            vec![(format!("{mark}{times} "), ink.of_colour(ink.theme.backward))]
         }
         _ => Vec::new(),
     }

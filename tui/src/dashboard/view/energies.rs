@@ -1,13 +1,14 @@
 //! Energies: the numbers now, and the curves.
 
 use super::ink::Ink;
-use super::numbers::{energy_unit, error, fixed};
+use super::numbers::{Scale, quantity, short};
 use super::plot::{DotCurve, DotPlot};
 use super::{Piece, width};
 use crate::brief::brief;
 use loschmidt_runner::run::Row;
 use loschmidt_runner::totals::total_for_people;
 use loschmidt_viewer::Rgb;
+use loschmidt_viewer::plot::steady;
 use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -31,13 +32,13 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
             .iter()
             .fold(0.0, |m, r| m.max(r.energy("kinetic"))),
     );
-    let (unit, scale) = energy_unit(largest);
+    let scale = Scale::of(largest, "J");
     let depth = if stage.home.dimension == 2 {
         " per m of depth"
     } else {
         ""
     };
-    let title = format!("ENERGY / {unit}");
+    let title = format!("ENERGY / {}", scale.name());
     let mut x = buf
         .set_stringn(area.x, area.y, &title, area.width.into(), ink.bold())
         .0;
@@ -63,7 +64,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
             vec![
                 (format!("{name} "), style),
                 (
-                    fixed(value(row) / scale, 2),
+                    scale.fixed(value(row), 5),
                     style.add_modifier(Modifier::BOLD),
                 ),
             ]
@@ -73,19 +74,19 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let released = stage.released();
     let mut relative = vec![("error ".to_owned(), ink.faint())];
     if released > 0.0 {
-        relative.push((error(off / released), ink.text()));
+        relative.push((short(off / released), ink.text()));
         if long {
             relative.push((" of the energy released".to_owned(), ink.faint()));
         }
     } else {
-        relative.push((format!("{} J", error(off)), ink.text()));
+        relative.push((quantity(off, "J", 2), ink.text()));
     }
     pieces.push(relative);
     for (heading, value) in &row.totals {
         let (name, unit) = total_for_people(heading);
         pieces.push(vec![
             (format!("{name} "), ink.faint()),
-            (format!("{} {unit}", error(*value)), ink.text()),
+            (quantity(*value, unit, 3), ink.text()),
         ]);
     }
     let used = flow(&pieces, row.totals.len(), area, buf);
@@ -144,26 +145,22 @@ fn flow(groups: &[Vec<Piece>], totals: usize, area: Rect, buf: &mut Buffer) -> u
 
 fn draw(
     stage: &StagedScene,
-    scale: f64,
+    scale: Scale,
     parts: &[EnergyCurve],
     area: Rect,
     buf: &mut Buffer,
     ink: &Ink,
 ) {
-    let rows = || stage.track.out().iter().chain(stage.track.back());
-    let (mut low, mut high) = (0.0_f64, 0.0_f64);
-    for row in rows() {
-        for (_, _, value) in parts {
-            low = low.min(value(row) / scale);
-            high = high.max(value(row) / scale);
-        }
-    }
-    if high - low <= 0.0 {
-        high = low + 1.0;
-    }
+    let ends = |rows: &mut dyn Iterator<Item = &Row>| {
+        let values = rows.flat_map(|row| parts.iter().map(move |(_, _, value)| value(row)));
+        values.fold([0.0_f64; 2], |[low, high], x| [low.min(x), high.max(x)])
+    };
+    let first = ends(&mut std::iter::once(&stage.opened.first));
+    let mut rows = stage.track.out().iter().chain(stage.track.back());
+    let range = steady(first, ends(&mut rows));
     let values: Vec<_> = parts
         .iter()
-        .map(|(_, colour, value)| (*colour, move |row: &Row| Some(value(row) / scale)))
+        .map(|(_, colour, value)| (*colour, move |row: &Row| Some(scale.count(value(row)))))
         .collect();
     let curves: Vec<DotCurve<'_>> = values
         .iter()
@@ -177,7 +174,7 @@ fn draw(
     DotPlot {
         track: &stage.track,
         curves: &curves,
-        range: [low, high + 0.04 * (high - low)],
+        range: range.map(|x| scale.count(x)),
         span: stage.span() as f64 * stage.opened.scene.time_step(),
         now: stage.status.time,
     }

@@ -1,10 +1,12 @@
 //! Reduced Boltzmann entropy, with its equilibrium values.
 
 use super::ink::Ink;
-use super::numbers::fixed;
+use super::numbers::short;
 use super::plot::{DotCurve, DotPlot};
 use super::{Piece, write};
+use loschmidt_runner::figures::number;
 use loschmidt_runner::run::Row;
+use loschmidt_viewer::plot::whole_numbers;
 use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -17,12 +19,12 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     }
     let row = stage.row();
     let theme = &ink.theme;
-    let value = |x: Option<f64>| x.map_or("–".to_owned(), |s| fixed(s, 3));
+    let value = |x: Option<f64>| x.map_or("–".to_owned(), short);
     let strong = ink.time().add_modifier(Modifier::BOLD);
     let mut pieces: Vec<Piece> = vec![
         ("ENTROPY  ".to_owned(), ink.bold()),
         ("S ".to_owned(), ink.time()),
-        (fixed(row.entropy, 4), strong),
+        (number(row.entropy, 5), strong),
     ];
     let of_energy = value(row.equilibrium_entropy_of_energy);
     let of_fit = value(row.equilibrium_entropy_of_fit);
@@ -64,20 +66,16 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
         },
     ];
     let rows = || stage.track.out().iter().chain(stage.track.back());
-    let mut low = rows().fold(f64::INFINITY, |m, row| m.min(row.entropy));
-    let mut high = rows().fold(f64::NEG_INFINITY, |m, row| {
+    let low = rows().fold(f64::INFINITY, |m, row| m.min(row.entropy));
+    let high = rows().fold(f64::NEG_INFINITY, |m, row| {
         m.max(row.entropy)
             .max(row.equilibrium_entropy_of_energy.unwrap_or(row.entropy))
     });
-    if high - low < 0.5 {
-        (low, high) = (low - 0.5, low + 0.5);
-    }
-    let room = 0.05 * (high - low);
     let plot = Rect::new(area.x, area.y + 1, area.width, area.height - 1);
     DotPlot {
         track: &stage.track,
         curves: &curves,
-        range: [low - room, high + room],
+        range: whole_numbers([low, high]),
         span: stage.span() as f64 * stage.opened.scene.time_step(),
         now: stage.status.time,
     }

@@ -3,8 +3,9 @@
 
 use super::super::state::Depth;
 use super::ink::{Ink, colour};
-use super::numbers::short;
-use super::width;
+use super::{Areas, width, write_right};
+use loschmidt_runner::figures;
+use loschmidt_viewer::ruler::Ruler;
 use loschmidt_viewer::session::StagedScene;
 use loschmidt_viewer::{Look, Projection, Raster, Rgb, field};
 use ratatui::buffer::Buffer;
@@ -86,16 +87,12 @@ fn braille(raster: &Raster, background: Rgb, area: Rect, buf: &mut Buffer) {
 
 /// The particle whose bit was flipped.
 fn mark(stage: &StagedScene, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
-    let Some(particle) = stage.flipped() else {
-        return;
-    };
-    let points = &stage.points;
-    let Some(place) = points.id.iter().position(|&id| id == particle) else {
+    let Some(particle) = stage.flipped_at() else {
         return;
     };
     let (width, height) = (usize::from(area.width), 2 * usize::from(area.height));
     let projection = Projection::new(&stage.home, &look.view, width, height);
-    let Some(at) = projection.project(points.at(place)) else {
+    let Some(at) = projection.project(particle) else {
         return;
     };
     if !(at.x >= 0.0 && at.y >= 0.0 && at.x < width as f64 && at.y < height as f64) {
@@ -107,22 +104,24 @@ fn mark(stage: &StagedScene, look: &Look, area: Rect, buf: &mut Buffer, ink: &In
 }
 
 /// What the colours say: the name, the ends and the colours between.
-pub fn legend(stage: &StagedScene, look: &Look, area: Rect, buf: &mut Buffer, ink: &Ink) {
+pub fn legend(stage: &StagedScene, look: &Look, areas: &Areas, buf: &mut Buffer, ink: &Ink) {
+    let area = areas.legend;
     if area.height == 0 {
         return;
     }
     let colouring = &look.colouring;
     let range = look.range.unwrap_or_else(|| colouring.range(&stage.home));
-    let low = short(range[0]);
-    let high = format!("{} {}", short(range[1]), colouring.unit());
+    let ([low, _, high], scale) = figures::ticks(range, colouring.unit());
+    let high = format!("{high} {}", scale.name());
     let title = colouring.title();
-    let words = width(title) + width(&low) + width(&high) + 6;
+    let ruler = ruler(stage, look, areas.field);
+    let words = width(title) + width(&low) + width(&high) + 6 + width(&ruler);
     let steps = area.width.saturating_sub(words).min(40);
     let mut x = buf
         .set_stringn(area.x + 1, area.y, title, area.width.into(), ink.bold())
         .0;
     x = buf.set_stringn(x + 1, area.y, &low, 12, ink.faint()).0 + 1;
-    let map = look.colormap();
+    let map = look.palette();
     for n in 0..steps {
         let part = |k: u16| f64::from(2 * n + k) / f64::from((2 * steps).max(2) - 1);
         // Half a cell is the finest step there is.
@@ -137,5 +136,21 @@ pub fn legend(stage: &StagedScene, look: &Look, area: Rect, buf: &mut Buffer, in
     }
     x += steps + 1;
     let room = area.right().saturating_sub(x);
-    buf.set_stringn(x, area.y, &high, room.into(), ink.faint());
+    let end = buf
+        .set_stringn(x, area.y, &high, room.into(), ink.faint())
+        .0;
+    let rest = Rect::new(end, area.y, area.right().saturating_sub(end), 1);
+    write_right(buf, rest, area.y, &[(ruler, ink.faint())]);
+}
+
+/// A bar as long as it says, in cells of the field.
+fn ruler(stage: &StagedScene, look: &Look, field: Rect) -> String {
+    let (width, height) = (usize::from(field.width), 2 * usize::from(field.height));
+    let projection = Projection::new(&stage.home, &look.view, width, height);
+    let most = (width as f64 / 6.0).min(24.0);
+    let ruler = Ruler::new(&projection, most).filter(|ruler| ruler.pixels >= 1.5);
+    ruler.map_or_else(String::new, |ruler| {
+        let between = (ruler.pixels.round() as usize).saturating_sub(2);
+        format!("├{}┤ {}", "─".repeat(between), ruler.text())
+    })
 }

@@ -1,7 +1,7 @@
 //! What runs, where it is in time, and which way time runs.
 
 use super::ink::Ink;
-use super::numbers::{count, short, steps};
+use super::numbers::{count, quantity, steps};
 use super::{Piece, write, write_right};
 use loschmidt_runner::{ArithmeticKind, Arrow};
 use loschmidt_viewer::session::StagedScene;
@@ -29,8 +29,8 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
         (" · fixed point".to_owned(), ink.faint())
     });
     for text in [
-        format!("spacing {} m", short(scene.particle_spacing)),
-        format!("c {} m/s", short(scene.sound_speed())),
+        format!("spacing {}", quantity(scene.particle_spacing, "m", 3)),
+        format!("c {}", quantity(scene.sound_speed(), "m/s", 3)),
         scene.integrator.word().to_owned(),
         scene.model.word().to_owned(),
         format!(
@@ -60,10 +60,7 @@ fn clock(stage: &StagedScene, columns: u16, ink: &Ink) -> Vec<Piece> {
     let strong = ink.time().add_modifier(Modifier::BOLD);
     let unit = stage.opened.scene.time_unit();
     let mut pieces = vec![
-        (
-            format!(" t = {:.4} {} ", unit.count(status.time), unit.name),
-            strong,
-        ),
+        (format!(" t = {} ", unit.amount(status.time, 5)), strong),
         (format!(" step {}  ", steps(status.position)), ink.faint()),
     ];
     let moving = status.seek.is_some() || (status.playing && !status.at_start);
@@ -91,13 +88,13 @@ fn pace(stage: &StagedScene, columns: u16, ink: &Ink) -> Vec<Piece> {
     let status = &stage.status;
     let dt = stage.opened.scene.time_step();
     let reached = status.steps_per_second * dt;
-    let mut pieces = vec![(format!("{} s/s ", short(status.pace)), ink.text())];
+    let mut pieces = vec![(format!("{} ", quantity(status.pace, "s/s", 3)), ink.text())];
     if columns >= 80 && status.steps_per_second > 0.0 {
         let speed = count(status.steps_per_second.round() as u64);
         if status.keeps_up {
             pieces.push((format!(" {speed} steps/s "), ink.faint()));
         } else {
-            let text = format!(" reached {} s/s, {speed} steps/s ", short(reached));
+            let text = format!(" reached {}, {speed} steps/s ", quantity(reached, "s/s", 3));
             pieces.push((text, ink.of_colour(ink.theme.backward)));
         }
     }

@@ -135,7 +135,7 @@ impl DashboardState {
     fn stage(&self, stage: &StagedScene, areas: &Areas, whole: Rect, buf: &mut Buffer, ink: &Ink) {
         header::render(stage, areas.header, buf, ink);
         field::render(stage, &self.session.look, self.depth, areas.field, buf, ink);
-        field::legend(stage, &self.session.look, areas.legend, buf, ink);
+        field::legend(stage, &self.session.look, areas, buf, ink);
         energies::render(stage, areas.energies, buf, ink);
         entropy::render(stage, areas.entropy, buf, ink);
         speeds::render(stage, areas.speeds, buf, ink);

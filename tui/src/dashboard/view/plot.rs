@@ -3,10 +3,9 @@
 
 use super::dots::Dots;
 use super::ink::Ink;
-use super::numbers::short;
+use super::numbers::{quantity, short};
 use super::{width, write_right};
 use loschmidt_runner::run::Row;
-use loschmidt_runner::time_unit::TimeUnit;
 use loschmidt_viewer::{Rgb, Track};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -90,8 +89,7 @@ impl DotPlot<'_> {
             axes.bottom() - 1,
             &[(short(low), ink.faint())],
         );
-        let unit = TimeUnit::of(self.span);
-        let end = format!(" {} {}", short(unit.count(self.span)), unit.name);
+        let end = format!(" {}", quantity(self.span, "s", 3));
         let x = axes.right().saturating_sub(width(&end));
         buf.set_string(x, axes.bottom(), end, ink.faint());
         buf.set_string(axes.x, axes.bottom(), "0 ", ink.faint());

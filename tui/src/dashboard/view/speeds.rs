@@ -2,9 +2,10 @@
 
 use super::dots::Dots;
 use super::ink::{Ink, colour};
-use super::numbers::short;
+use super::numbers::quantity;
 use super::{Piece, width, write};
 use loschmidt_core::observe::{BINS, SpeedHistogram};
+use loschmidt_viewer::Rgb;
 use loschmidt_viewer::session::StagedScene;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -29,7 +30,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
             };
             pieces.push((name.to_owned(), ink.of_colour(ink.theme.third)));
             pieces.push((
-                format!("kT/m = {} m²/s²", short(t)),
+                format!("kT/m = {}", quantity(t, "m²/s²", 3)),
                 ink.of_colour(ink.theme.third),
             ));
         }
@@ -38,54 +39,41 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     write(buf, area, area.y, &pieces);
     let axes = Rect::new(area.x, area.y + 1, area.width, area.height - 2);
     let histogram = &moment.histogram;
-    let shown = bins_shown(histogram, fit);
-    let largest = shown.iter().fold(0.0_f64, |m, &(f, _)| m.max(f));
+    let end = stage.fastest;
+    // The density at every column, by the bin under its middle.
+    let density = |column: u16| {
+        let speed = (f64::from(column) + 0.5) / f64::from(axes.width) * end;
+        let bin = (speed / histogram.bin_width) as usize;
+        if bin < BINS {
+            histogram.density(bin)
+        } else {
+            0.0
+        }
+    };
+    let bars: Vec<f64> = (0..axes.width).map(density).collect();
     // Heights are divided by it.
-    let top = largest.max(f64::MIN_POSITIVE);
-    bars(&shown, top, axes, buf, ink);
+    let top = bars.iter().fold(f64::MIN_POSITIVE, |m, &f| m.max(f));
+    draw_bars(&bars, top, axes, buf, ink);
     if let Some(t) = fit {
-        let end = shown.len() as f64 * histogram.bin_width;
         curve(histogram, t, end, top, axes, buf, ink);
     }
     for x in axes.left()..axes.right() {
         buf[(x, axes.bottom())].set_char('─').set_style(ink.rule());
     }
-    let end = format!(" {} m/s", short(shown.len() as f64 * histogram.bin_width));
+    let end = format!(" {}", quantity(end, "m/s", 3));
     buf.set_string(axes.x, axes.bottom(), "0 ", ink.faint());
     let x = axes.right().saturating_sub(width(&end));
     buf.set_string(x, axes.bottom(), end, ink.faint());
 }
 
-/// Densities and midpoints of the bins up to the fastest particles that can be seen: the axis ends
-/// after one, two or three fifths of the bins, or after all of them.
-fn bins_shown(histogram: &SpeedHistogram, fit: Option<f64>) -> Vec<(f64, f64)> {
-    let total: u64 = histogram.counts.iter().map(|&c| u64::from(c)).sum();
-    let mut slower = 0;
-    let mut last = 0;
-    for (k, &count) in histogram.counts.iter().enumerate() {
-        slower += u64::from(count);
-        last = k;
-        // All but one in 500.
-        if slower * 500 >= total * 499 {
-            break;
-        }
-    }
-    if let Some(t) = fit {
-        last = last.max((3.2 * t.sqrt() / histogram.bin_width) as usize);
-    }
-    let ends = [BINS / 5, BINS * 2 / 5, BINS * 3 / 5, BINS];
-    let end = ends.into_iter().find(|&end| end > last).unwrap_or(BINS);
-    (0..end)
-        .map(|k| (histogram.density(k), histogram.midpoint(k)))
-        .collect()
+fn bar_colour(ink: &Ink) -> Rgb {
+    ink.theme.forward.mix(ink.theme.background, 110)
 }
 
-fn bars(bins: &[(f64, f64)], top: f64, axes: Rect, buf: &mut Buffer, ink: &Ink) {
+fn draw_bars(bars: &[f64], top: f64, axes: Rect, buf: &mut Buffer, ink: &Ink) {
     let full = 8 * u32::from(axes.height);
-    let bar = ink.theme.forward.mix(ink.theme.background, 110);
-    for column in 0..axes.width {
-        let bin = usize::from(column) * bins.len() / usize::from(axes.width);
-        let part = (bins[bin].0 / top).clamp(0.0, 1.0);
+    for (x, density) in (axes.left()..axes.right()).zip(bars) {
+        let part = (density / top).clamp(0.0, 1.0);
         let mut eighths = (part * f64::from(full)).round() as u32;
         for row in (axes.top()..axes.bottom()).rev() {
             let here = eighths.min(8);
@@ -93,14 +81,16 @@ fn bars(bins: &[(f64, f64)], top: f64, axes: Rect, buf: &mut Buffer, ink: &Ink) 
             if here == 0 {
                 break;
             }
-            buf[(axes.x + column, row)]
+            buf[(x, row)]
                 .set_char(EIGHTHS[here as usize])
-                .set_fg(colour(bar));
+                .set_fg(colour(bar_colour(ink)));
         }
     }
 }
 
-/// The curve over the bars: where it crosses a bar, the bar is the ground of the cell.
+/// The curve over the bars. A cell has room for one of both: on a full bar the curve has the bar
+/// for its ground, and where it runs along the end of a bar, that end takes its colour. So no bar
+/// has a hole.
 fn curve(
     histogram: &SpeedHistogram,
     temperature: f64,
@@ -117,20 +107,26 @@ fn curve(
         let f = histogram.maxwell_boltzmann(temperature, v);
         [x, (1.0 - f / top) * (height - 1.0)]
     };
-    let bar = colour(ink.theme.forward.mix(ink.theme.background, 110));
     let mut last = at(0.0);
-    let mut over = Vec::new();
     for x in 1..width as usize {
         let here = at(x as f64);
         dots.line(last, here, ink.theme.third, true, false);
-        let row = (here[1] / 4.0).max(0.0) as u16;
-        over.push((axes.x + (x / 2) as u16, axes.y + row));
         last = here;
     }
-    for (x, y) in over {
-        if y < axes.bottom() && x < axes.right() && buf[(x, y)].symbol() == "█" {
-            buf[(x, y)].set_bg(bar);
+    let bars: Vec<_> = axes.positions().map(|at| (at, buf[at].clone())).collect();
+    dots.render(axes, buf);
+    for (at, bar) in bars {
+        let covered = buf[at].symbol() != bar.symbol();
+        match bar.symbol() {
+            " " => {}
+            "█" if covered => {
+                buf[at].set_bg(bar.fg);
+            }
+            _ if covered => {
+                buf[at] = bar;
+                buf[at].set_fg(colour(ink.theme.third));
+            }
+            _ => {}
         }
     }
-    dots.render(axes, buf);
 }
