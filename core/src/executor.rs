@@ -6,9 +6,10 @@
 use crate::fault::Fault;
 use crate::neighbours::{Cells, Grid};
 use crate::number::Arithmetic;
-use crate::pairs::{PairPass, Sources, Targets, add, empty, gather, grain, term_count};
+use crate::pairs::{PairPass, Sources, Targets, add, empty, gather, grains, term_count};
 use crate::points::{PointPass, visit};
 use crate::set::Set;
+use crate::values::Values;
 
 /// Owns the traversal of particles and pairs; never a number.
 pub trait Executor {
@@ -94,9 +95,9 @@ impl Executor for Serial {
         out: &mut [A::Word],
     ) -> Result<(), Fault> {
         let mut first: Option<Fault> = None;
-        let grain = grain(pass, to);
+        let grains = grains(pass, to);
         for (i, out) in out.chunks_exact_mut(term_count::<P, D>()).enumerate() {
-            let mut sum: P::Term<A::Sum> = empty::<A, _>(grain);
+            let mut sum: P::Term<A::Sum> = empty::<A, _>(|k| grains.get(k));
             let result = gather(pass, to, i, from, &mut sum);
             add::<A, _>(&sum, out);
             if let Err(kind) = result {

@@ -46,6 +46,13 @@ pub trait PairPass<const D: usize>: Sync {
         let _ = largest;
         f64::INFINITY
     }
+    /// The same for each number by itself, none above [`PairPass::bound`]: what floating-point sums
+    /// are rounded to. Where a model sums some numbers of a pass by another one, or not at all while
+    /// what they depend on stays, their bounds must depend on no more.
+    fn bounds(&self, largest: &Self::Read<f64>) -> Self::Term<f64> {
+        let bound = self.bound(largest);
+        Self::Term::<f64>::from_fn(|_| bound)
+    }
     /// What the term needs of r² = |x_ij|² (length quanta squared); passes that need the same can
     /// share it.
     #[inline(always)]
@@ -117,7 +124,7 @@ pub fn largest<A: Arithmetic, P: PairPass<D>, const D: usize>(
     largest
 }
 
-/// What the terms of a sum are rounded to where none exceeds `bound`.
+/// What a sum is rounded to where no term exceeds `bound`.
 #[must_use]
 pub fn grain_under<A: Arithmetic>(bound: f64) -> Grain {
     if A::EXACT {
@@ -127,25 +134,34 @@ pub fn grain_under<A: Arithmetic>(bound: f64) -> Grain {
     }
 }
 
-/// What the terms of a sum are rounded to, whoever takes it.
+/// What the numbers of a term are rounded to where nothing that is read exceeds `largest`.
 #[must_use]
-pub fn grain<A: Arithmetic, P: PairPass<D>, const D: usize>(
+pub fn grains_under<A: Arithmetic, P: PairPass<D>, const D: usize>(
     pass: &P,
-    to: &Targets<'_, A, D>,
-) -> Grain {
-    // The particles of another set, walls, are near to few: their sums may take longer.
-    let is_bounded = to.same_set && !A::EXACT;
-    grain_under::<A>(match is_bounded {
-        true => pass.bound(&largest::<A, P, D>(to)),
-        false => f64::INFINITY,
-    })
+    largest: &P::Read<f64>,
+) -> P::Term<Grain> {
+    let bounds = pass.bounds(largest);
+    P::Term::<Grain>::from_fn(|k| grain_under::<A>(bounds.get(k)))
 }
 
-/// A term's sums without terms yet.
+/// What the numbers of a term are rounded to, whoever takes the sum.
+#[must_use]
+pub fn grains<A: Arithmetic, P: PairPass<D>, const D: usize>(
+    pass: &P,
+    to: &Targets<'_, A, D>,
+) -> P::Term<Grain> {
+    // The particles of another set, walls, are near to few: their sums may take longer.
+    if A::EXACT || !to.same_set {
+        return P::Term::<Grain>::from_fn(|_| grain_under::<A>(f64::INFINITY));
+    }
+    grains_under::<A, P, D>(pass, &largest::<A, P, D>(to))
+}
+
+/// A term's sums without terms yet, number k of which is rounded to `grain(k)`.
 #[inline]
 #[must_use]
-pub fn empty<A: Arithmetic, V: Values<A::Sum>>(grain: Grain) -> V {
-    V::from_fn(|_| A::Sum::empty(grain))
+pub fn empty<A: Arithmetic, V: Values<A::Sum>>(grain: impl Fn(usize) -> Grain) -> V {
+    V::from_fn(|k| A::Sum::empty(grain(k)))
 }
 
 /// Adds a term's sums to the words of a target.

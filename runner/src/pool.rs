@@ -8,12 +8,14 @@
 use crate::drive::Drive;
 use loschmidt_core::fault::MAX_NEIGHBOURS;
 use loschmidt_core::neighbours::{Cells, Grid};
+use loschmidt_core::number::Grain;
 use loschmidt_core::operands::Operands;
 use loschmidt_core::pairs::{
-    PairPass, Sources, Targets, accumulate, add, empty, grain, separation, term_count,
+    PairPass, Sources, Targets, accumulate, add, empty, grains, separation, term_count,
 };
 use loschmidt_core::points::{PointPass, visit};
 use loschmidt_core::set::{Set, read};
+use loschmidt_core::values::Values;
 use loschmidt_core::{Arithmetic, Executor, Fault, FaultKind};
 use rayon::prelude::*;
 use std::num::NonZeroUsize;
@@ -151,13 +153,13 @@ impl Executor for Rayon {
         out: &mut [A::Word],
     ) -> Result<(), Fault> {
         let term = term_count::<P, D>();
-        let grain = grain(pass, to);
+        let grains = listed::<P, D>(&grains(pass, to));
         let parts = out.chunks_mut(PARTICLES * term).enumerate().collect();
         self.for_parts(parts, |(n, out): (usize, &mut [A::Word])| {
             let mut first: Option<Fault> = None;
             for (k, out) in out.chunks_exact_mut(term).enumerate() {
                 let i = n * PARTICLES + k;
-                let mut sum: P::Term<A::Sum> = empty::<A, _>(grain);
+                let mut sum: P::Term<A::Sum> = empty::<A, _>(|k| grains[k]);
                 let result = gather_listed(pass, to, i, from, &mut sum);
                 add::<A, _>(&sum, out);
                 if let Err(kind) = result {
@@ -171,6 +173,11 @@ impl Executor for Rayon {
 }
 
 impl Drive for Rayon {}
+
+/// Number after number, for many threads.
+pub(crate) fn listed<P: PairPass<D>, const D: usize>(grains: &P::Term<Grain>) -> Vec<Grain> {
+    (0..term_count::<P, D>()).map(|k| grains.get(k)).collect()
+}
 
 /// The core's `gather` with the branches taken out of the search.
 fn gather_listed<A: Arithmetic, P: PairPass<D>, const D: usize>(

@@ -102,12 +102,13 @@ impl<const D: usize> Check<D> for Bounded<'_, D> {
         }
         let (i, j) = (self.0.read::<P>(0), self.0.read::<P>(1));
         let term = pass.term(&x, pass.argument(r2), &i, &j);
-        let bound = pass.bound(&self.0.largest::<P>());
+        let all = pass.bound(&self.0.largest::<P>());
+        let bounds = pass.bounds(&self.0.largest::<P>());
         for k in 0..term_count::<P, D>() {
-            let number = term.get(k);
+            let (number, bound) = (term.get(k), bounds.get(k));
             prop_assert!(
-                number.abs() <= bound,
-                "{name}, number {k}: {number:e} {bound:e}"
+                number.abs() <= bound && bound <= all,
+                "{name}, number {k}: {number:e} {bound:e} {all:e}"
             );
         }
         Ok(())

@@ -177,7 +177,7 @@ impl Memory {
                     strips,
                     words,
                     sums,
-                    grain: kick.grains[1],
+                    grains: &[kick.grains[1]; D],
                 });
             });
         }
@@ -198,7 +198,7 @@ impl Memory {
                 strips,
                 words,
                 sums,
-                grain: kick.grains[1],
+                grains: &[kick.grains[1]; D],
             });
         });
     }
@@ -223,7 +223,7 @@ impl Memory {
                         found.fault(Fault::new(FaultKind::TermRange, kick.id[place]));
                         continue;
                     };
-                    add_received::<A>(&mut sum, kick.grains[1], &from_parts, strip.slot + k);
+                    add_received::<A>(&mut sum, &[kick.grains[1]; D], &from_parts, strip.slot + k);
                     impulse[place - from] = sum;
                 }
             }
@@ -253,7 +253,7 @@ fn finish<A: Arithmetic, const D: usize>(
     for (k, density) in density.iter_mut().enumerate() {
         let (place, slot) = (strip.place + k, strip.slot + k);
         let mut sum = [kick.own];
-        add_received::<A>(&mut sum, kick.grains[0], contributors, slot);
+        add_received::<A>(&mut sum, &kick.grains[..1], contributors, slot);
         *density = sum[0].plus(kick.constant[place]);
         match kick.factor.of(*density, kick.id[place]) {
             Ok(pressure) => {
@@ -310,14 +310,14 @@ impl<A: Arithmetic, const D: usize> Work for Going<'_, A, D> {
                 layout,
                 now,
                 (&[], 0),
-                (firsts, fine),
+                (firsts, &[fine]),
             );
             let mut second = Leg::<PressurePass, D>::new(
                 &self.kick.pressure,
                 layout,
                 past,
                 words,
-                (seconds, fine_impulses),
+                (seconds, &[fine_impulses; D]),
             );
             if fresh.len() < first.arguments() {
                 fresh.resize(first.arguments(), Reals::default());
@@ -346,7 +346,7 @@ struct Rest<'a, const D: usize> {
     strips: Range<usize>,
     words: &'a [Reals],
     sums: &'a mut Sums,
-    grain: Grain,
+    grains: &'a [Grain],
 }
 
 impl<const D: usize> Work for Rest<'_, D> {
@@ -357,7 +357,7 @@ impl<const D: usize> Work for Rest<'_, D> {
         let inner = inner(&self.strips, layout.strips.len() - 1);
         for s in self.strips.filter(|s| !inner.contains(s)) {
             let words = (self.words, 0);
-            let sums = (&mut *self.sums, self.grain);
+            let sums = (&mut *self.sums, self.grains);
             Leg::<PressurePass, D>::new(self.pass, layout, Some(s), words, sums).alone(simd);
         }
     }

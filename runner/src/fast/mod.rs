@@ -29,7 +29,7 @@ mod walls;
 pub use backend::Backend;
 
 use crate::drive::{Drive, Group};
-use crate::pool::Rayon;
+use crate::pool::{Rayon, listed};
 use layout::{Crew, Layout};
 use loschmidt_core::fault::MAX_NEIGHBOURS;
 use loschmidt_core::fields::{IMPULSE, POSITION, VELOCITY};
@@ -38,7 +38,7 @@ use loschmidt_core::model::{Model, Relax};
 use loschmidt_core::neighbours::{Cells, Grid};
 use loschmidt_core::number::Grain;
 use loschmidt_core::operands::Operands;
-use loschmidt_core::pairs::{PairPass, Sources, Targets, grain_under, term_count};
+use loschmidt_core::pairs::{PairPass, Sources, Targets, grains_under, term_count};
 use loschmidt_core::points::{PointPass, visit};
 use loschmidt_core::schemes::wcsph::{Filtered, Symplectic};
 use loschmidt_core::set::Set;
@@ -150,7 +150,7 @@ impl Fast {
         &self,
         memory: &mut Memory,
         pass: &P,
-        grain: Grain,
+        grains: &[Grain],
         out: &mut [A::Word],
     ) {
         let term = term_count::<P, D>();
@@ -170,7 +170,7 @@ impl Fast {
                 strips,
                 words,
                 sums,
-                grain,
+                grains,
             });
         });
         let sums: Vec<_> = sums.iter().map(|[sums, _]| sums).collect();
@@ -179,7 +179,7 @@ impl Fast {
             for strip in &layout.strips[strips] {
                 let from_parts = contributors(term, &sums, strip);
                 for (slot, out) in (strip.slot..strip.slot + strip.len).zip(&mut out) {
-                    add_received::<A>(out, grain, &from_parts, slot);
+                    add_received::<A>(out, grains, &from_parts, slot);
                 }
             }
         });
@@ -261,14 +261,14 @@ impl Executor for Fast {
             return walls.sum(layout, pass, to, from, out);
         }
         let largest = memory.load::<A, P, D>(to);
-        let bound = pass.bound(&largest);
-        let in_range = bound < LIMIT;
+        let in_range = pass.bound(&largest) < LIMIT;
         if !in_range || memory.layout.most_candidates > MAX_NEIGHBOURS as usize {
             self.plain.store(true, Ordering::Relaxed);
             return self.plain(pass, to, from, out);
         }
         self.swept.store(true, Ordering::Relaxed);
-        self.sweep::<A, P, D>(memory, pass, grain_under::<A>(bound), out);
+        let grains = listed::<P, D>(&grains_under::<A, P, D>(pass, &largest));
+        self.sweep::<A, P, D>(memory, pass, &grains, out);
         Ok(())
     }
 }

@@ -84,7 +84,7 @@ pub(super) fn contributors<'a>(
 #[inline(always)]
 pub(super) fn add_received<A: Arithmetic>(
     words: &mut [A::Word],
-    grain: Grain,
+    grains: &[Grain],
     contributors: &[&Sums],
     slot: usize,
 ) {
@@ -94,7 +94,7 @@ pub(super) fn add_received<A: Arithmetic>(
         for sums in contributors {
             received = received.wrapping_add(sums.of(components, slot, k));
         }
-        *word = A::Sum::grains_added_to(received, grain, *word);
+        *word = A::Sum::grains_added_to(received, grains[k], *word);
     }
 }
 
@@ -104,10 +104,10 @@ pub(super) fn add_received<A: Arithmetic>(
 /// and what is read of it (as bits), and a row for what each lane has given it, for each number of
 /// the term. All of it is at one address; with separate arrays a third of the instructions of a
 /// pair computed addresses.
-pub(super) struct Leg<'a, P, const D: usize> {
+pub(super) struct Leg<'a, P: PairPass<D>, const D: usize> {
     pass: &'a P,
-    /// Rounds to the grain of the sums.
-    rounder: f64,
+    /// Round each number to its grain.
+    rounders: P::Term<f64>,
     strip: Strip,
     meets: &'a [Meeting],
     x: &'a [Reals],
@@ -159,7 +159,7 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
         layout: &'a Layout,
         s: Option<usize>,
         (words, words_from): (&'a [Reals], usize),
-        (sums, grain): (&'a mut Sums, Grain),
+        (sums, grains): (&'a mut Sums, &[Grain]),
     ) -> Self {
         let nobody = (Strip::default(), const { &Meets::new() });
         let (strip, meets) = s.map_or(nobody, |s| (layout.strips[s], &layout.meets[s]));
@@ -196,7 +196,10 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
         }
         Self {
             pass,
-            rounder: grain.rounder(),
+            rounders: P::Term::<f64>::from_fn(
+                #[inline(always)]
+                |k| grains[k].rounder(),
+            ),
             strip,
             meets: meets.list(),
             x,
@@ -257,8 +260,8 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
             |c| Pack::new(simd, simd.load(unsafe { *words_j.add(c) })),
         );
         let term = self.pass.term(&x_ij, argument, &read_i, &read_j);
-        let rounder = simd.splat(self.rounder);
         for c in 0..Self::TERM {
+            let rounder = simd.splat(self.rounders.get(c));
             let rounded = simd.round(term.get(c).row, rounder);
             // SAFETY: there are TERM rows of sums, and as many in a record after its head. No other
             // reference to either is in use.
@@ -420,13 +423,13 @@ const fn bytes<T, const D: usize>(each: usize) -> usize {
 }
 
 /// One pass over some strips.
-pub(super) struct Sweep<'a, P, const D: usize> {
+pub(super) struct Sweep<'a, P: PairPass<D>, const D: usize> {
     pub pass: &'a P,
     pub layout: &'a Layout,
     pub strips: Range<usize>,
     pub words: &'a [Reals],
     pub sums: &'a mut Sums,
-    pub grain: Grain,
+    pub grains: &'a [Grain],
 }
 
 impl<P: PairPass<D>, const D: usize> Work for Sweep<'_, P, D> {
@@ -436,7 +439,7 @@ impl<P: PairPass<D>, const D: usize> Work for Sweep<'_, P, D> {
         let layout = self.layout;
         for s in self.strips {
             let words = (self.words, 0);
-            let sums = (&mut *self.sums, self.grain);
+            let sums = (&mut *self.sums, self.grains);
             Leg::<P, D>::new(self.pass, layout, Some(s), words, sums).alone(simd);
         }
     }

@@ -6,7 +6,10 @@
 
 use super::layout::{Layout, key};
 use loschmidt_core::number::Quantity;
-use loschmidt_core::pairs::{Gathering, PairPass, Sources, Targets, add, empty, grain, term_count};
+use loschmidt_core::pairs::{
+    Gathering, PairPass, Sources, Targets, add, empty, grains, term_count,
+};
+use loschmidt_core::values::Values;
 use loschmidt_core::{Arithmetic, Fault};
 
 /// Who is near the walls.
@@ -46,14 +49,14 @@ impl NearWalls {
             self.of = Some(of);
         }
         let mut first: Option<Fault> = None;
-        let grain = grain(pass, to);
+        let grains = grains(pass, to);
         let mut start = 0;
         for &(place, end) in &self.near {
             let walls = &self.walls[start..end as usize];
             start = end as usize;
             let place = place as usize;
             let out = &mut out[place * term_count::<P, D>()..][..term_count::<P, D>()];
-            let mut sum: P::Term<A::Sum> = empty::<A, _>(grain);
+            let mut sum: P::Term<A::Sum> = empty::<A, _>(|k| grains.get(k));
             let mut gathering = Gathering::new(pass, to, place, from, &mut sum);
             gathering.add(walls);
             let result = gathering.end();

@@ -155,6 +155,21 @@ impl<const D: usize> PairPass<D> for MomentsPass {
         let clumping = (reach.kernel.structural_at(0.0) * self.volume).abs();
         1.001 * gradient.max(moment).max(clumping)
     }
+    fn bounds(&self, largest: &Moving<f64, D>) -> Moments<f64, D> {
+        // Only the gradient moves with the velocities.
+        let still = self.bound(&Moving {
+            velocity: [0.0; D],
+            ..*largest
+        });
+        Moments {
+            moment: Symmetric {
+                rows: [[still; D]; D],
+            },
+            density: still,
+            clumping: still,
+            gradient: self.gradient.bounds(largest),
+        }
+    }
     #[inline(always)]
     fn argument<L: Lanes>(&self, r2: L) -> L {
         self.gradient.reach.kernel.q(r2.root())

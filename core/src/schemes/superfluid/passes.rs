@@ -162,6 +162,17 @@ impl<const D: usize> PairPass<D> for SumsPass {
         let density = reach.largest_value() * self.volume;
         gradient.max(1.001 * moment).max(1.001 * density)
     }
+    fn bounds(&self, velocity: &[f64; D]) -> Sums<f64, D> {
+        // Only the gradient moves with the velocities.
+        let still = self.bound(&[0.0; D]);
+        Sums {
+            density: still,
+            moment: Symmetric {
+                rows: [[still; D]; D],
+            },
+            gradient: self.gradient.bounds(velocity),
+        }
+    }
     #[inline(always)]
     fn argument<L: Lanes>(&self, r2: L) -> L {
         self.gradient.reach.kernel.q(r2.root())
