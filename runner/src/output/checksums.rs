@@ -121,6 +121,9 @@ fn mixed(bits: u64) -> u64 {
 mod tests {
     use super::*;
 
+    /// What is done to a row.
+    type Change = fn(&mut Row);
+
     fn rows() -> Vec<Row> {
         let row = |n: u64| Row {
             step: n,
@@ -138,7 +141,7 @@ mod tests {
         assert_eq!(sums.changed(&rows()), None);
         assert_eq!(sums.columns[0].0, "step");
         for place in [0, 1, 2, 500, 999] {
-            let changes: [(&str, fn(&mut Row)); 4] = [
+            let changes: [(&str, Change); 4] = [
                 ("step", |row| row.step ^= 1 << 63),
                 ("kinetic_J", |row| row.energies[0].1 += 1e-9),
                 ("momentum_x_quanta", |row| row.momentum_x_quanta += 1),

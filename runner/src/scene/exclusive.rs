@@ -12,16 +12,16 @@ pub(super) fn companions<'a>(
     given: &[(&str, &[&'static str])],
     all: &[(&'static str, &[&str])],
 ) {
-    let in_words = |names: &[&str], word| {
+    let in_words = |names: &[&str]| {
         let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-        listed(&names, word)
+        listed(&names, "or")
     };
     let names: Vec<&str> = given.iter().map(|(name, _)| *name).collect();
     for (name, owners) in all {
         if let Some(stray) = here.table.get(name)
             && !owners.iter().any(|owner| names.contains(owner))
         {
-            let (owners, given) = (in_words(owners, "or"), in_words(&names, "and"));
+            let (owners, given) = (in_words(owners), in_words(&names));
             builder.conflict(
                 format!("`{name}` goes with {owners}, not with {given}"),
                 stray.key,
