@@ -4,8 +4,8 @@ use super::builder::{Builder, Here};
 use super::schema::listed;
 use super::spec::Entry;
 
-/// Reports companions of keys that are not given, and companions of the given ones that are missing:
-/// each of those with what it needs.
+/// Reports companions of keys that are not given, and companions of the given ones that are
+/// missing: each of those with what it needs.
 pub(super) fn companions<'a>(
     builder: &mut Builder<'a>,
     here: Here<'a>,
