@@ -2,8 +2,8 @@
 //!
 //! The least of three: what the machine has left; what the container has left, that is each cgroup
 //! from this process's own up to the root (version 1 or 2); and what the limits of this process
-//! (`ulimit -v` and `-d`) leave of its address space. An allocation that fails ends the program with
-//! an abort, so what is going to be too much is refused before, in words.
+//! (`ulimit -v` and `-d`) leave of its address space. An allocation that fails ends the program
+//! with an abort, so what is going to be too much is refused before, in words.
 
 use std::fmt;
 use std::fs;
@@ -115,8 +115,8 @@ pub fn check(needed: u64) -> Result<(), MemoryError> {
 /// Address space of a thread's stack.
 const STACK: u64 = 2 << 20;
 
-/// Address space that the allocator of glibc reserves for each thread that asks for memory. It looks
-/// for twice as much at first, and does without where there is not so much.
+/// Address space that the allocator of glibc reserves for each thread that asks for memory. It
+/// looks for twice as much at first, and does without where there is not so much.
 const ARENA: u64 = 64 << 20;
 
 /// What the program takes besides: buffers, the table of results.
@@ -153,8 +153,8 @@ fn process_limits(root: &Path) -> Vec<(u64, MemoryLimit)> {
     space.into_iter().chain(data).collect()
 }
 
-/// The files of a version of cgroups: where they are mounted, the limit, what is taken, and which of
-/// that is files which the kernel would rather forget.
+/// The files of a version of cgroups: where they are mounted, the limit, what is taken, and which
+/// of that is files which the kernel would rather forget.
 struct Version {
     mounted: &'static str,
     limit: &'static str,

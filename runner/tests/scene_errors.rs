@@ -217,7 +217,7 @@ fn of_very_many_mistakes_the_first_twenty_are_told() {
         (regions, "`kind` cannot be \"flud\"\n --> scene.toml:5:8\n"),
         (
             format!("[[region]]\nkind = \"fluid\"\n{union}"),
-            "`radius`: expected a number in m, found a string\n --> scene.toml:6:54\n",
+            "`radius`: expected a number in m, found a string\n --> scene.toml:6:55\n",
         ),
     ] {
         let source = Source::Text {

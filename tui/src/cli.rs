@@ -538,8 +538,8 @@ impl WorkArguments {
 }
 
 impl RunArguments {
-    /// What the program does without arguments and without a terminal: its default under a name that
-    /// tells it from the scene of the catalogue.
+    /// What the program does without arguments and without a terminal: its default under a name
+    /// that tells it from the scene of the catalogue.
     pub fn small() -> Self {
         let mut arguments = Self::default();
         arguments.scene.set.push("name=dam-break-small".to_owned());

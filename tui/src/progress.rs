@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 /// Between two plain lines at least.
 const PAUSE: Duration = Duration::from_secs(10);
 
-/// Says what is about to be run, how long it will take, and where its files go. `set`: what the scene
-/// was changed by.
+/// Says what is about to be run, how long it will take, and where its files go. `set`: what the
+/// scene was changed by.
 pub fn announce(run: &mut Run, set: &[String]) {
     let seconds = run.expected_seconds();
     let player = run.player();

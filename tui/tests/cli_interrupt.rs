@@ -38,8 +38,13 @@ fn a_signal_during_set_up_ends_the_program_and_leaves_nothing() {
         .status();
     assert!(pipe.is_ok_and(|status| status.success()));
     // A scene that nobody writes, and the positions of 31,000 particles, which take half a minute.
-    let calls: [&[&str]; 2] = [
+    let calls: [&[&str]; 3] = [
         &["run", "pipe.toml", "--out=broken"],
+        if cfg!(feature = "window") {
+            &["view", "pipe.toml"]
+        } else {
+            &["movie", "pipe.toml"]
+        },
         &[
             "run",
             "dam-break",

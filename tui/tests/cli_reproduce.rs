@@ -151,3 +151,18 @@ fn an_interrupted_report_says_how_to_go_on_and_finds_what_an_uninterrupted_one_f
         assert_eq!(read("broken"), read("whole"));
     }
 }
+
+/// The correction of 80,000 particles, which takes half a minute.
+#[cfg(unix)]
+#[test]
+fn a_signal_is_heard_while_nothing_but_a_set_up_is_under_way() {
+    use crate::program::{end, signal};
+    let place = Workplace::new();
+    let child = place.start(&["reproduce", "fig1", "--out", "r"]);
+    std::thread::sleep(std::time::Duration::from_secs(3));
+    let began = std::time::Instant::now();
+    signal(&child, "TERM");
+    end(child).refused(130, &["interrupted; what is done is kept"]);
+    assert!(began.elapsed() < std::time::Duration::from_secs(10));
+    assert!(!place.join("r/fig1.json").exists());
+}

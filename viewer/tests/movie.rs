@@ -235,7 +235,7 @@ fn a_finished_run_is_drawn_from_its_frames() {
     let running = running.as_mut().expect("a run");
     assert!(matches!(
         Stored::open(&run).err(),
-        Some(MovieError::Unfinished(_))
+        Some(MovieError::AtWork { .. })
     ));
     running
         .execute(|_| {}, &AtomicBool::new(false))

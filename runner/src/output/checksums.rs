@@ -1,9 +1,9 @@
 //! Checksums of a series: that a number of it was changed is seen, and where.
 //!
 //! Each column has two sums over its rows, of a hash h of every number and of the hash times the
-//! number n of its row, both modulo 2^64. Where one number was changed they are off by Δ = h' - h and
-//! by n Δ, which tells n. They are no protection against one who means to deceive: he would change
-//! the manifest, where they stand, too.
+//! number n of its row, both modulo 2^64. Where one number was changed they are off by Δ = h' - h
+//! and by n Δ, which tells n. They are no protection against one who means to deceive: he would
+//! change the manifest, where they stand, too.
 
 use super::series::numbers;
 use crate::run::Row;
@@ -58,8 +58,8 @@ impl Checksums {
         }
     }
 
-    /// The first column, in their order, whose numbers are not those that were counted. Columns that
-    /// one of both does not know are left out.
+    /// The first column, in their order, whose numbers are not those that were counted. Columns
+    /// that one of both does not know are left out.
     #[must_use]
     pub fn changed(&self, rows: &[Row]) -> Option<ChangedNumber> {
         let rows = &rows[..rows.len().min(self.rows)];
@@ -121,6 +121,9 @@ fn mixed(bits: u64) -> u64 {
 mod tests {
     use super::*;
 
+    /// What is done to a row.
+    type Change = fn(&mut Row);
+
     fn rows() -> Vec<Row> {
         let row = |n: u64| Row {
             step: n,
@@ -138,7 +141,7 @@ mod tests {
         assert_eq!(sums.changed(&rows()), None);
         assert_eq!(sums.columns[0].0, "step");
         for place in [0, 1, 2, 500, 999] {
-            let changes: [(&str, fn(&mut Row)); 4] = [
+            let changes: [(&str, Change); 4] = [
                 ("step", |row| row.step ^= 1 << 63),
                 ("kinetic_J", |row| row.energies[0].1 += 1e-9),
                 ("momentum_x_quanta", |row| row.momentum_x_quanta += 1),

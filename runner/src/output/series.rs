@@ -1,9 +1,9 @@
 //! `series.csv`: one line per [`Row`], the units in the header.
 //!
 //! The energies of the model stand between the times and their sum, each as `KIND_J`; what else a
-//! model says of the whole comes then, and at the end the linear momentum in kg m/s, which series of
-//! earlier versions do not have. Numbers are written in the shortest form that reads back to the same
-//! bits.
+//! model says of the whole comes then, and at the end the linear momentum in kg m/s, which series
+//! of earlier versions do not have. Numbers are written in the shortest form that reads back to the
+//! same bits.
 
 use crate::run::Row;
 use serde::Serialize;

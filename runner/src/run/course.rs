@@ -251,7 +251,8 @@ impl Run {
         self.finish()
     }
 
-    /// How long the run will take, s, where that can be found out; see [`expected_seconds`].
+    /// How long the run will take, s, by some of its first steps, which are then taken back. `None`
+    /// away from home and in floating point, and where the steps end early.
     pub fn expected_seconds(&mut self) -> Option<f64> {
         expected_seconds(&mut self.player, &self.plan)
     }

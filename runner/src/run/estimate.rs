@@ -12,8 +12,8 @@ const TRIAL: Duration = Duration::from_millis(100);
 const MOST: u64 = 50;
 
 /// Seconds that the run of a player at home will take, by some of its first steps, which are then
-/// taken back; `None` where that would not leave the state as it was (in floating point, and away from
-/// home), and where nothing can be said. Particles in disorder take up to twice as long.
+/// taken back; `None` where that would not leave the state as it was (in floating point, and away
+/// from home), and where nothing can be said. Particles in disorder take up to twice as long.
 pub(super) fn expected_seconds(player: &mut Player, plan: &Plan) -> Option<f64> {
     if player.steps_taken() > 0 || player.options().arithmetic == ArithmeticKind::Float {
         return None;

@@ -1,8 +1,8 @@
 //! What an earlier part of a run has left, read back: nothing is taken that it has not written.
 //!
-//! The snapshots must be those of the scene beside them, of moments that the plan passes, and of the
-//! digests in the manifest; the series must have the numbers of the checksums there; and the frames
-//! must be there.
+//! The snapshots must be those of the scene beside them, of moments that the plan passes, and of
+//! the digests in the manifest; the series must have the numbers of the checksums there; and the
+//! frames must be there.
 
 use super::error::RunError;
 use super::plan::Plan;
@@ -123,8 +123,8 @@ impl<'a> Left<'a> {
     }
 }
 
-/// Whether a snapshot is that of the scene in this run directory. The text that was written there is
-/// what counts: the next version of this program may print the same scene with other comments.
+/// Whether a snapshot is that of the scene in this run directory. The text that was written there
+/// is what counts: the next version of this program may print the same scene with other comments.
 fn belongs(snapshot: &Snapshot, directory: &Path, scene: &Scene) -> bool {
     let written = std::fs::read(RunDirectory::scene_path(directory));
     snapshot.scene == scene_hash(scene) || written.is_ok_and(|text| snapshot.scene == hash(&text))

@@ -4,24 +4,24 @@ use super::builder::{Builder, Here};
 use super::schema::listed;
 use super::spec::Entry;
 
-/// Reports companions of keys that are not given, and companions of the given ones that are missing:
-/// each of those with what it needs.
+/// Reports companions of keys that are not given, and companions of the given ones that are
+/// missing: each of those with what it needs.
 pub(super) fn companions<'a>(
     builder: &mut Builder<'a>,
     here: Here<'a>,
     given: &[(&str, &[&'static str])],
     all: &[(&'static str, &[&str])],
 ) {
-    let in_words = |names: &[&str], word| {
+    let in_words = |names: &[&str]| {
         let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-        listed(&names, word)
+        listed(&names, "or")
     };
     let names: Vec<&str> = given.iter().map(|(name, _)| *name).collect();
     for (name, owners) in all {
         if let Some(stray) = here.table.get(name)
             && !owners.iter().any(|owner| names.contains(owner))
         {
-            let (owners, given) = (in_words(owners, "or"), in_words(&names, "and"));
+            let (owners, given) = (in_words(owners), in_words(&names));
             builder.conflict(
                 format!("`{name}` goes with {owners}, not with {given}"),
                 stray.key,

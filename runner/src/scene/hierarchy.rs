@@ -1,8 +1,8 @@
 //! Unions of many shapes, made quick to ask.
 //!
-//! Whether a point is in one of N shapes takes N questions, and a scene has at least as many points as
-//! shapes. A long union is therefore cut in halves, again and again, each half within a box around it:
-//! a point asks for the box first. Which points belong to the shape does not change.
+//! Whether a point is in one of N shapes takes N questions, and a scene has at least as many points
+//! as shapes. A long union is therefore cut in halves, again and again, each half within a box
+//! around it: a point asks for the box first. Which points belong to the shape does not change.
 
 use super::geometry::{AxisBox, around_both, grown};
 use super::shape::Shape;

@@ -18,9 +18,9 @@ pub struct Region {
     /// Arrangement of the particles of a fluid region; a wall has `None`, since it
     /// continues the lattice of the first fluid region.
     pub lattice: Option<LatticeKind>,
-    /// First velocity, the sum of these fields; none is at rest. Of a wall, how it slides or turns, in
-    /// scenes of a viscous fluid, or the velocity with which it rubs, in those of a superfluid: one
-    /// field at most.
+    /// First velocity, the sum of these fields; none is at rest. Of a wall, how it slides or turns,
+    /// in scenes of a viscous fluid, or the velocity with which it rubs, in those of a superfluid:
+    /// one field at most.
     pub velocity: Vec<Velocity>,
     /// First counterflow of a superfluid; `None` is none.
     pub counterflow: Option<Counterflow>,

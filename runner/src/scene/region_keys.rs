@@ -40,8 +40,8 @@ pub(super) static REGION: TableRules = TableRules {
             .required()
             .means("what is filled"),
         key("velocity", Table(&VELOCITY)).means(
-            "first velocity of the fluid, or how a wall of a viscous one or of helium moves; several \
-             fields are added; absent: at rest",
+            "first velocity of the fluid, or how a wall of a viscous one or of helium moves; \
+             several fields are added; absent: at rest",
         ),
         key("counterflow", Table(&COUNTERFLOW))
             .of(superfluid::FAMILY)

@@ -1,7 +1,7 @@
 //! A text of a scene, and where in it something stands: line, column, excerpt.
 //!
-//! The beginnings of the lines, and the number of characters before every kibibyte, are counted once.
-//! A place is then found in the same time wherever it is, also on a line of a megabyte.
+//! The beginnings of the lines, and the number of characters before every kibibyte, are counted
+//! once. A place is then found in the same time wherever it is, also on a line of a megabyte.
 
 use super::error::Line;
 

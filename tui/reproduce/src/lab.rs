@@ -349,7 +349,7 @@ impl<'a> Lab<'a> {
 
     /// Does what may take minutes on a thread of its own, and listens for a signal meanwhile. After
     /// one the thread is left alone: it ends with the program.
-    fn set_up<T: Send + 'static>(
+    pub(crate) fn set_up<T: Send + 'static>(
         &self,
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Result<T, LabError> {

@@ -80,8 +80,9 @@ impl Terminal {
         disable_raw_mode()?;
         take()?;
         if let Some(screen) = &mut self.screen {
-            // Nothing of what was drawn is there any more. (`Terminal::clear` would ask the terminal
-            // where its cursor is, and the thread that waits for keys would hear the answer.)
+            // Nothing of what was drawn is there any more. (`Terminal::clear` would ask the
+            // terminal where its cursor is, and the thread that waits for keys would hear the
+            // answer.)
             execute!(screen.backend_mut(), Clear(ClearType::All))?;
             screen.swap_buffers();
         }

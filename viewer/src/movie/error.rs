@@ -49,7 +49,11 @@ pub enum MovieError {
         source: crate::picture::ReadError,
     },
     /// A run that is still to come to its end.
-    #[error("the run in {} has not finished; go on with\n    loschmidt resume {}", .0.display(), quote(.0))]
+    #[error(
+        "the run in {} has not finished; go on with\n    loschmidt resume {}",
+        .0.display(),
+        quote(.0)
+    )]
     Unfinished(PathBuf),
     /// A run that is being taken at this moment.
     #[error(
@@ -66,7 +70,12 @@ pub enum MovieError {
         planned: u64,
     },
     /// A directory that a user of the dashboard or the window left.
-    #[error("{} was left by the dashboard or the window, and holds no frames\nhelp: `loschmidt movie {}` makes a movie of its scene", .0.display(), quote(&.0.join("scene.toml")))]
+    #[error(
+        "{} was left by the dashboard or the window, and holds no frames\n\
+         help: `loschmidt movie {}` makes a movie of its scene",
+        .0.display(),
+        quote(&.0.join("scene.toml"))
+    )]
     Watched(PathBuf),
     /// A run with too few frames.
     #[error(

@@ -1,8 +1,8 @@
 //! Pictures of runs that are simulated for them.
 //!
 //! One run, or two of the same scene in different arithmetic. After a picture both are at the same
-//! step; that is where an interrupted export goes on. The plots have a point for every row that a run
-//! would record, and for every picture.
+//! step; that is where an interrupted export goes on. The plots have a point for every row that a
+//! run would record, and for every picture.
 
 use super::camera::Views;
 use super::directory::{Movie, replace};

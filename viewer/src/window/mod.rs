@@ -130,8 +130,8 @@ impl WindowArguments {
     }
 }
 
-/// Shows a window until its user leaves or `stop` is set, which is looked at once `ready` is called.
-/// The directory to go on from, where there is something to go on with.
+/// Shows a window until its user leaves or `stop` is set, which is looked at once `ready` is
+/// called. The directory to go on from, where there is something to go on with.
 ///
 /// # Errors
 /// [`WindowError`].

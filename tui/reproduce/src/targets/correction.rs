@@ -57,7 +57,7 @@ pub fn fig1(lab: &mut Lab<'_>) -> Result<Section, LabError> {
         lab.check()?;
         let name = format!("{} x {}", size[0], size[1]);
         lab.say(&format!("  {name}"));
-        let Some(done) = corrected(size) else {
+        let Some(done) = lab.set_up(move || corrected(size))? else {
             section.check(&name, "did not converge", "7 steps", "converges", false);
             continue;
         };
