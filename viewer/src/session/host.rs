@@ -130,7 +130,7 @@ impl Host {
         if let Some(stage) = &session.stage {
             self.send(Command::Keep {
                 path: free_directory(&stage.home.name),
-                rows: stage.series.rows(),
+                rows: stage.track.rows(),
             });
         }
     }
