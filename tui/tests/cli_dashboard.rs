@@ -25,6 +25,20 @@ fn time_is_turned_and_comes_back_bit_identical() {
 }
 
 #[test]
+fn who_has_only_watched_leaves_nothing_behind() {
+    let place = Workplace::new();
+    let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (120, 40));
+    terminal.wait_for("step 3");
+    terminal.type_keys("c");
+    terminal.type_keys("?");
+    terminal.wait_for("reverse time");
+    terminal.type_keys("?");
+    terminal.type_keys("q");
+    assert_eq!(terminal.ended_and_restored(), 0);
+    assert!(!place.join("runs").exists(), "{}", terminal.text());
+}
+
+#[test]
 fn what_is_left_on_the_way_can_be_opened_again() {
     let place = Workplace::new();
     let mut terminal = start(place.path(), &SMALL, &TRUE_COLOURS, (120, 40));

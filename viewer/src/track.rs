@@ -55,24 +55,6 @@ impl Track {
         }
     }
 
-    /// Adds a row that a picture was measured with, unless one so few steps away is there: curves
-    /// are not coarser than the pictures, and no longer than they need be.
-    pub fn push_between(&mut self, row: &Row, travel: Arrow, apart: i64) {
-        let near = |other: Option<&Row>| {
-            other.is_some_and(|other| (other.position - row.position).abs() < apart)
-        };
-        let known = match travel {
-            Arrow::Forward => {
-                let place = self.out.partition_point(|r| r.position < row.position);
-                near(self.out.get(place)) || near(place.checked_sub(1).map(|n| &self.out[n]))
-            }
-            Arrow::Backward => near(self.back.last()),
-        };
-        if !known {
-            self.push(row.clone(), travel);
-        }
-    }
-
     /// The track of a series. `span`: physical time that the plots have room for, s.
     #[must_use]
     pub fn of_rows(rows: &[Row], span: f64) -> Self {

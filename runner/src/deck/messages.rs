@@ -114,7 +114,7 @@ pub struct Opened {
     pub length_quantum: f64,
     /// Steps to the turnaround, or to the end of a one-way run.
     pub span: i64,
-    /// Steps between rows.
+    /// Steps between rows: those of the run's series, or fewer where these are few.
     pub row_every: i64,
     /// Rows of the run that was opened, in the order of its steps.
     pub rows: Vec<Row>,

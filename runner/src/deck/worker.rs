@@ -29,6 +29,9 @@ use std::time::{Duration, Instant};
 /// wait for a command.
 const PIECE: Duration = Duration::from_millis(8);
 
+/// Rows on the way to the turnaround, at least.
+const POINTS: u64 = 100;
+
 type Tell = Box<dyn Fn(Report) + Send>;
 
 /// Plays until the face has gone.
@@ -130,7 +133,8 @@ impl Worker {
         let dt = player.scene().time_step();
         let pace = pace.unwrap_or_else(|| suggested_pace(plan.out as f64 * dt));
         let particles = player.home().id.len();
-        let every = plan.row_every as i64;
+        // Curves have a hundred points at least, however few rows a run would store.
+        let every = plan.row_every.min((plan.out / POINTS).max(1)) as i64;
         Self {
             clock: DeckClock::new(pace / dt, Instant::now()),
             good: (player.home().clone(), 0, Arrow::Forward),

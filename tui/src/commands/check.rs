@@ -5,6 +5,7 @@ use crate::cli::SceneArguments;
 use crate::exit::{Failure, NOT_EXACT, USAGE};
 use crate::progress::{duration, frame_bytes};
 use loschmidt_core::Fault;
+use loschmidt_runner::figures::quantity;
 use loschmidt_runner::run::Plan;
 use loschmidt_runner::scene::{
     InitialState, Region, RegionKind, Relaxation, Scene, Solid, Superfluid, Velocity, Viscous,
@@ -67,12 +68,12 @@ pub fn check(arguments: &SceneArguments) -> Result<ExitCode, Failure> {
             Err(fault) => format!("none: the run will fail, {fault}"),
         },
     );
-    line("time step", format!("{dt:.4e} s"));
+    line("time step", quantity(dt, "s", 5));
     let mut limit = |name: &str, limit: Option<f64>, rule: &str| {
         let verdict = match limit {
             None => "none".to_owned(),
-            Some(limit) if dt <= limit => format!("{limit:.4e} s, kept ({rule})"),
-            Some(limit) => format!("{limit:.4e} s, EXCEEDED ({rule})"),
+            Some(limit) if dt <= limit => format!("{}, kept ({rule})", quantity(limit, "s", 5)),
+            Some(limit) => format!("{}, EXCEEDED ({rule})", quantity(limit, "s", 5)),
         };
         line(name, verdict);
     };
@@ -158,18 +159,19 @@ fn viscous(scene: &Scene, fluid: &Viscous) -> String {
     let mut line = |name: &str, value: String| text += &format!("{name:<22}{value}\n");
     let material = fluid.material();
     line("material", "viscous fluid".to_owned());
-    line("  viscosity", format!("{:.4e} m²/s", fluid.viscosity));
+    line("  viscosity", quantity(fluid.viscosity, "m²/s", 5));
     let (tau, dt) = (fluid.relaxation_time(), scene.time_step());
+    let time = quantity(tau, "s", 5);
     line(
         "  relaxation time",
         if dt > MOST_RELAXATIONS * tau {
             format!(
-                "{tau:.4e} s, of which a step takes {:.3}: TOO MANY, the fluid is thicker than \
+                "{time}, of which a step takes {:.3}: TOO MANY, the fluid is thicker than \
                  said; choose a smaller `shear_speed` or `cfl`",
                 dt / tau
             )
         } else {
-            format!("{tau:.4e} s, of which a step takes {:.3}", dt / tau)
+            format!("{time}, of which a step takes {:.3}", dt / tau)
         },
     );
     let (c_l, c_s) = (material.longitudinal_speed(), material.shear_speed);
@@ -293,7 +295,7 @@ fn elastic(scene: &Scene, solid: &Solid) -> String {
         "material",
         format!("{}, small strains", solid.energy.word()),
     );
-    let pascal = |x: f64| format!("{x:.4e} Pa");
+    let pascal = |x: f64| quantity(x, "Pa", 5);
     line("  Young's modulus", pascal(constants.youngs_modulus));
     line(
         "  Poisson's ratio",

@@ -85,9 +85,10 @@ impl Palette {
     #[must_use]
     pub fn at(self, x: f64) -> Rgb {
         let [low, high] = self.ends;
-        // Of a number and NaN, `max` takes the number.
-        let x = low + (high - low) * x.max(0.0).min(1.0);
-        self.map.at(x).mix(Rgb(0), self.shade)
+        let part = if x > 0.0 { x.min(1.0) } else { 0.0 };
+        self.map
+            .at(low + (high - low) * part)
+            .mix(Rgb(0), self.shade)
     }
 }
 

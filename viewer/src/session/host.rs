@@ -135,7 +135,7 @@ impl Host {
         if let Some(stage) = &session.stage {
             self.send(Command::Keep {
                 path: free_directory_in(folder, &stage.home.name),
-                rows: stage.series.rows(),
+                rows: stage.track.rows(),
             });
         }
     }

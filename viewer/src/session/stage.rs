@@ -30,10 +30,8 @@ pub struct StagedScene {
     pub points: Points,
     /// Where everything is.
     pub status: Status,
-    /// Energies and entropies of both ways, as they are plotted.
+    /// Energies and entropies of both ways.
     pub track: Track,
-    /// The same at the steps of the series, as they are kept.
-    pub series: Track,
     /// The other arithmetic, where it is played too.
     pub other: Option<OtherPlayer>,
     /// The colours of the particles from a picture, in the order of the ids.
@@ -63,7 +61,6 @@ impl StagedScene {
         let points = Points::from(&opened.home);
         Self {
             status: opened.status.clone(),
-            series: track.clone(),
             track,
             other: beside.then(|| OtherPlayer {
                 points: points.clone(),
@@ -82,14 +79,8 @@ impl StagedScene {
 
     /// Takes what was measured.
     pub(super) fn note(&mut self, moment: Box<Moment>) {
-        /// Parts of the bar of time that curves have points for.
-        const POINTS: i64 = 400;
         if moment.regular {
             self.track.push(moment.row.clone(), moment.travel);
-            self.series.push(moment.row.clone(), moment.travel);
-        } else {
-            let apart = (self.span() / POINTS).max(1);
-            self.track.push_between(&moment.row, moment.travel, apart);
         }
         self.fastest = axis_of_speeds(&moment, self.fastest);
         self.moment = Some(moment);
@@ -167,8 +158,9 @@ impl StagedScene {
     }
 }
 
-/// The end of the axis of speeds after this moment, from where it was before: it goes a part of the
-/// way to the speed that all but one particle in 500 stay below, and the fitted curve too.
+/// The end of the axis of speeds after this moment, from where it was before: with every row it goes
+/// a part of the way to the speed that all but one particle in 500 stay below, and the fitted curve
+/// too.
 fn axis_of_speeds(moment: &Moment, before: f64) -> f64 {
     /// Part of the way.
     const PART: f64 = 0.15;
@@ -188,5 +180,8 @@ fn axis_of_speeds(moment: &Moment, before: f64) -> f64 {
     let wanted = wanted.min(all);
     // At rest there is an axis as well.
     let before = before.max(all / 5.0);
-    before + PART * (wanted - before).max(0.0)
+    match moment.regular {
+        true => before + PART * (wanted - before).max(0.0),
+        false => before,
+    }
 }

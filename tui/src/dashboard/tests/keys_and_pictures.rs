@@ -62,6 +62,24 @@ fn a_key_that_is_held_adds_up() {
 }
 
 #[test]
+fn what_lies_over_the_rest_does_not_stop_time() {
+    let mut bench = Bench::open("rotating-drop", &["particle_spacing=0.1"], (120, 40));
+    bench.tell(Message::Key(Key::Escape));
+    for key in ['?', 'e'] {
+        let effects = bench.key(Key::Char(key));
+        assert!(
+            !effects.iter().any(|it| matches!(it, Effect::Deck(_))),
+            "{effects:?}"
+        );
+        assert_ne!(bench.state.session.overlay, Overlay::None);
+        let status = &bench.state.session.stage.as_ref().expect("a scene").status;
+        assert!(status.playing);
+        bench.key(Key::Escape);
+        assert_eq!(bench.state.session.overlay, Overlay::None);
+    }
+}
+
+#[test]
 fn before_the_start_there_is_nothing() {
     let mut bench = drop();
     bench.seek(0);

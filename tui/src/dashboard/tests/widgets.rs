@@ -6,7 +6,7 @@ use crate::dashboard::state::{DashboardState, Depth};
 use crate::dashboard::view::Areas;
 use loschmidt_runner::deck::Report;
 use loschmidt_viewer::session::{Button, Mouse};
-use loschmidt_viewer::{Key, Track, field, keys};
+use loschmidt_viewer::{Key, Projection, Track, field, keys};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
@@ -156,6 +156,95 @@ fn the_way_back_is_drawn_dot_by_dot_on_the_way_out() {
     };
     assert!(both.iter().all(|plot| curves(plot) > 12));
     assert_eq!(both, plots(&bench.state));
+}
+
+#[test]
+fn the_fitted_curve_bites_no_holes_into_the_bars() {
+    let mut bench = dam();
+    bench.state.size = (200, 60);
+    bench.seek(1000);
+    let area = Areas::of(bench.state.size).speeds;
+    let with = bench.screen();
+    let stage = bench.state.session.stage.as_mut().expect("a scene");
+    let moment = stage.moment.as_mut().expect("measured");
+    moment.row.fitted_temperature_m2_per_s2 = None;
+    let bars = bench.screen();
+    let mut crossed = 0;
+    for at in area
+        .positions()
+        .filter(|at| at.y > area.y && at.y + 1 < area.bottom())
+    {
+        let (bar, cell) = (&bars[at], &with[at]);
+        if bar.symbol() == " " || *cell == *bar {
+            continue;
+        }
+        crossed += 1;
+        // A whole bar is the ground of the curve; the end of a bar is still there.
+        let kept = cell.symbol() == bar.symbol() || (bar.symbol() == "█" && cell.bg == bar.fg);
+        assert!(kept, "{at}: {cell:?} over {bar:?}");
+    }
+    assert!(crossed > 5, "{crossed}");
+}
+
+#[test]
+fn axes_rest_while_the_dam_breaks() {
+    let mut bench = dam();
+    let range = |bench: &Bench| {
+        let areas = Areas::of(bench.state.size);
+        let shown = text(&bench.screen());
+        let lines = shown.lines().skip(usize::from(areas.energies.y + 1));
+        let lines = lines.take(usize::from(areas.energies.height));
+        let numbers = lines.filter_map(|line| {
+            let right: String = line.chars().skip(usize::from(areas.energies.x)).collect();
+            let (number, _) = right.split_once('│')?;
+            number.trim().parse::<f64>().ok()
+        });
+        numbers.collect::<Vec<f64>>()
+    };
+    bench.seek(100);
+    let first = range(&bench);
+    assert_eq!(first.len(), 2, "{first:?}");
+    let mut fastest = 0.0;
+    for step in [400, 800, 1600] {
+        bench.seek(step);
+        assert_eq!(range(&bench), first);
+        // The axis of speeds goes one way, and no more than a part of it at once.
+        let stage = bench.state.session.stage.as_ref().expect("a scene");
+        assert!(stage.fastest >= fastest);
+        fastest = stage.fastest;
+    }
+}
+
+#[test]
+fn a_bar_tells_the_length_scale() {
+    let mut bench = dam();
+    for size in [(200, 60), (120, 40)] {
+        bench.state.size = size;
+        let shown = text(&bench.screen());
+        let line = shown
+            .lines()
+            .find(|line| line.contains('├'))
+            .expect("a bar");
+        let bar: String = line.chars().skip_while(|c| *c != '├').collect();
+        let (bar, rest) = bar.split_once(' ').expect("a length");
+        let metres: f64 = rest
+            .split(' ')
+            .next()
+            .and_then(|n| n.parse().ok())
+            .expect("a number");
+        assert!(rest.contains(" m"), "{rest}");
+        // As many cells as a rectangle of that length covers.
+        let stage = bench.state.session.stage.as_ref().expect("a scene");
+        let field = Areas::of(size).field;
+        let (width, height) = (usize::from(field.width), 2 * usize::from(field.height));
+        let view = &bench.state.session.look.view;
+        let scale = Projection::new(&stage.home, view, width, height).scale();
+        let cells = bar.chars().count() as f64;
+        assert!(
+            (cells - metres * scale).abs() <= 0.5,
+            "{cells} cells for {metres} m"
+        );
+    }
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! Energies: the numbers now, and the curves.
 
 use super::ink::Ink;
-use super::numbers::{Scale, quantity, short};
+use super::numbers::{Scale, quantity};
 use super::plot::{DotCurve, DotPlot};
 use super::{Piece, width};
 use crate::brief::brief;
+use loschmidt_runner::figures::number;
 use loschmidt_runner::run::Row;
 use loschmidt_runner::totals::total_for_people;
 use loschmidt_viewer::Rgb;
@@ -64,7 +65,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
             vec![
                 (format!("{name} "), style),
                 (
-                    scale.fixed(value(row), 5),
+                    scale.fixed(value(row), 4),
                     style.add_modifier(Modifier::BOLD),
                 ),
             ]
@@ -74,7 +75,7 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     let released = stage.released();
     let mut relative = vec![("error ".to_owned(), ink.faint())];
     if released > 0.0 {
-        relative.push((short(off / released), ink.text()));
+        relative.push((number(off / released, 2), ink.text()));
         if long {
             relative.push((" of the energy released".to_owned(), ink.faint()));
         }

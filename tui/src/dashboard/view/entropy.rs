@@ -1,10 +1,9 @@
 //! Reduced Boltzmann entropy, with its equilibrium values.
 
 use super::ink::Ink;
-use super::numbers::short;
+use super::numbers::Scale;
 use super::plot::{DotCurve, DotPlot};
 use super::{Piece, write};
-use loschmidt_runner::figures::number;
 use loschmidt_runner::run::Row;
 use loschmidt_viewer::plot::whole_numbers;
 use loschmidt_viewer::session::StagedScene;
@@ -19,12 +18,14 @@ pub fn render(stage: &StagedScene, area: Rect, buf: &mut Buffer, ink: &Ink) {
     }
     let row = stage.row();
     let theme = &ink.theme;
-    let value = |x: Option<f64>| x.map_or("–".to_owned(), short);
+    // As many decimals whatever the number.
+    let nats = Scale::of(1.0, "");
+    let value = |x: Option<f64>| x.map_or("–".to_owned(), |s| nats.fixed(s, 4));
     let strong = ink.time().add_modifier(Modifier::BOLD);
     let mut pieces: Vec<Piece> = vec![
         ("ENTROPY  ".to_owned(), ink.bold()),
         ("S ".to_owned(), ink.time()),
-        (number(row.entropy, 5), strong),
+        (nats.fixed(row.entropy, 5), strong),
     ];
     let of_energy = value(row.equilibrium_entropy_of_energy);
     let of_fit = value(row.equilibrium_entropy_of_fit);
