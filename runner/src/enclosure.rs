@@ -62,8 +62,7 @@ impl Enclosure {
             let (low, high) = (end(k, f64::min)?, end(k, f64::max)?);
             let cells = ((high - low) / cell).round() + 1.0;
             count *= cells;
-            // Written so that a NaN fails it.
-            if !(count <= MOST_CELLS) {
+            if count.is_nan() || count > MOST_CELLS {
                 return None;
             }
             grid.low[k] = low;

@@ -175,22 +175,12 @@ fn speed_in_a_tank_at_rest(more: &str) -> f64 {
 
 #[test]
 fn a_tank_at_rest_stays_at_rest_where_it_begins_with_the_pressure_of_its_weight() {
-    let dummies = |correction: &str| {
+    let speed = |correction: &str| {
         speed_in_a_tank_at_rest(&format!(
             "wall_model = \"dummy\"\ndensity_correction = \"{correction}\""
         ))
     };
-    let conservative = |correction: &str| {
-        speed_in_a_tank_at_rest(&format!(
-            "wall.energy = 98.0\ndensity_correction = \"{correction}\""
-        ))
-    };
-    let speeds = [
-        dummies("constant"),
-        dummies("hydrostatic"),
-        conservative("constant"),
-        conservative("hydrostatic"),
-    ];
-    println!("{speeds:?}");
-    assert!(speeds[1] < 0.05, "{speeds:?}");
+    // Without that pressure the water falls until it has it, and what it gains becomes noise.
+    let (falls, rests) = (speed("constant"), speed("hydrostatic"));
+    assert!(rests < 0.05 && falls > 0.05, "{falls} and {rests} m/s");
 }

@@ -4,7 +4,7 @@
 use super::error::RunError;
 use super::estimate::expected_seconds;
 use super::left::{Left, scene_hash};
-use super::outcome::{Cost, Digests, Outcome};
+use super::outcome::{Cost, Digests, Found, Outcome};
 use super::plan::Plan;
 use super::row::Row;
 use super::seen::Seen;
@@ -446,12 +446,14 @@ impl Run {
         let outcome = Outcome::new(
             &self.player,
             &self.rows,
-            self.turnaround_digest.clone(),
-            came_back,
-            last_digest,
-            lone_particles,
-            self.seen,
-            cost,
+            Found {
+                turnaround_digest: self.turnaround_digest.clone(),
+                came_back,
+                last_digest,
+                lone_particles,
+                seen: self.seen,
+                cost,
+            },
         )
         .ok_or(RunError::NoRows)?;
         self.write_manifest(RunStatus::Finished, None, Some(&outcome))?;

@@ -245,18 +245,33 @@ pub struct Cost {
     pub wall_s: f64,
 }
 
+/// What was found at the end of a run, besides its rows.
+pub(super) struct Found {
+    /// At the turnaround.
+    pub turnaround_digest: Option<String>,
+    /// How far from home, where a run was to come home.
+    pub came_back: Option<Return>,
+    /// At the end.
+    pub last_digest: String,
+    /// With too few neighbours.
+    pub lone_particles: u64,
+    /// Signs that the scene is not what it is meant to be.
+    pub seen: Seen,
+    /// What it cost.
+    pub cost: Cost,
+}
+
 impl Outcome {
     /// Puts together what is known at the end of a run. `rows` must not be empty.
-    pub(super) fn new(
-        player: &Player,
-        rows: &[Row],
-        turnaround_digest: Option<String>,
-        came_back: Option<Return>,
-        last_digest: String,
-        lone_particles: u64,
-        seen: Seen,
-        cost: Cost,
-    ) -> Option<Self> {
+    pub(super) fn new(player: &Player, rows: &[Row], found: Found) -> Option<Self> {
+        let Found {
+            turnaround_digest,
+            came_back,
+            last_digest,
+            lone_particles,
+            seen,
+            cost,
+        } = found;
         let scene = player.scene();
         let options = player.options();
         let dimension = scene.dimension.axes();

@@ -112,8 +112,7 @@ fn bound_by(central: &CentralGravity, initial: &InitialState) -> Option<f64> {
         let squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         let distance = (squared + central.softening * central.softening).sqrt();
         let energy = 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) - central.strength / distance;
-        // Written so that a NaN fails it.
-        if !(energy < 0.0) {
+        if energy.is_nan() || energy >= 0.0 {
             return None;
         }
         farthest = farthest.max(central.strength / -energy);
