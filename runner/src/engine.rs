@@ -19,7 +19,7 @@ use loschmidt_core::number::Quantity;
 use loschmidt_core::owned::to_quanta;
 use loschmidt_core::set::Set;
 use loschmidt_core::{
-    Arithmetic, Clock, Diagnostics, Digest, Fault, Reversibility, Serial, System,
+    Arithmetic, Clock, Diagnostics, Digest, Fault, Reversibility, Scale, Serial, System,
 };
 use rayon::prelude::*;
 
@@ -97,7 +97,23 @@ impl<A: Arithmetic, M: Model<A, D>, const D: usize> Engine<A, M, D> {
             released: false,
         };
         engine.with_executor(Initialise)?;
+        engine.add(particles, &scale)?;
         Ok(engine)
+    }
+
+    /// Adds what the scene adds to fields that the model has made.
+    fn add(&mut self, particles: &InitialState, scale: &Scale) -> Result<(), BuildError> {
+        if particles.added.is_empty() && particles.wall_added.is_empty() {
+            return Ok(());
+        }
+        let mut system = self.storage.system();
+        particles
+            .add_to(&mut system.particles, scale)
+            .and_then(|()| particles.add_to(&mut system.walls, scale))
+            .map_err(|particle| BuildError::Range { particle })?;
+        // What walls add to each other does not change any more, and holds these fields.
+        self.with_executor(PlaceWalls)?;
+        Ok(())
     }
 
     /// Calls `task` with the executor's own type.

@@ -1,6 +1,6 @@
 //! Fields of the state that a scene gives besides positions and velocities.
 
-use crate::scene::{InitialState, Vector3};
+use crate::scene::{GivenField, InitialState, Vector3};
 use loschmidt_core::fields::Side;
 use loschmidt_core::number::Quantity;
 use loschmidt_core::set::Set;
@@ -28,6 +28,34 @@ impl InitialState {
             Side::Particles => &self.given,
             Side::Walls => &self.wall_given,
         };
+        self.put(all, set, scale, |_| A::Word::ZERO)
+    }
+
+    /// Adds every field that a scene adds to what the model has made of the first state, as
+    /// [`InitialState::put_given`] puts those that are given.
+    ///
+    /// # Errors
+    /// The id of a particle whose value is out of the number range.
+    pub fn add_to<A: Arithmetic, const D: usize>(
+        &self,
+        set: &mut Set<'_, A, D>,
+        scale: &Scale,
+    ) -> Result<(), u64> {
+        let all = match set.side() {
+            Side::Particles => &self.added,
+            Side::Walls => &self.wall_added,
+        };
+        self.put(all, set, scale, |word| word)
+    }
+
+    /// Puts fields into the set, each on what is made of the word that is there.
+    fn put<A: Arithmetic, const D: usize>(
+        &self,
+        all: &[GivenField],
+        set: &mut Set<'_, A, D>,
+        scale: &Scale,
+        start: impl Fn(A::Word) -> A::Word,
+    ) -> Result<(), u64> {
         for given in all {
             let fields = set.fields();
             let Some(f) = fields.iter().position(|field| field.name == given.name) else {
@@ -42,9 +70,9 @@ impl InitialState {
                     Side::Walls => ((self.fluid.len() + place) as u64, place),
                 };
                 for (c, x) in given.values[n].iter().enumerate().take(each) {
-                    let word = A::Word::ZERO.add_rounded(x / quantum);
-                    let word = word.filter(|word| word.in_range()).ok_or(id)?;
-                    set.words_mut(f)[place * each + c] = word;
+                    let at = &mut set.words_mut(f)[place * each + c];
+                    let word = start(*at).add_rounded(x / quantum);
+                    *at = word.filter(|word| word.in_range()).ok_or(id)?;
                 }
             }
         }

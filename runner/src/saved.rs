@@ -78,6 +78,8 @@ impl SavedState {
             parts: Vec::new(),
             given: Vec::new(),
             wall_given: Vec::new(),
+            added: Vec::new(),
+            wall_added: Vec::new(),
         }
     }
 

@@ -7,8 +7,8 @@
 //!
 //! ρ0 p/ρ² = g d/k,
 //!
-//! with d the depth (m) below the surface of the region. The state equation gives ρ, and the constant
-//! C_a of the particle begins with ρ - ρ0. Dummy particles within the reach of a region continue its
+//! with d the depth (m) below the surface of the region. The state equation gives ρ, and ρ - ρ0
+//! is added to the constant C_a of the particle. Dummy particles within the reach of a region continue its
 //! pressure. At the free surface, whose rows have no neighbours above, the balance is not exact.
 
 use super::geometry::{AxisBox, Vector3, around_both, grown};
@@ -67,7 +67,7 @@ impl Scene {
             }
             pools.push(pool);
         }
-        state.given.push(GivenField {
+        state.added.push(GivenField {
             name: FIELD,
             values,
         });
@@ -78,7 +78,7 @@ impl Scene {
             let near = pools.iter().find(|pool| within(&pool.bounds, x));
             near.map_or([0.0; 3], |pool| excess(pool, x))
         };
-        state.wall_given.push(GivenField {
+        state.wall_added.push(GivenField {
             name: FIELD,
             values: state.wall.iter().map(of_wall).collect(),
         });

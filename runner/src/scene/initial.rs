@@ -42,6 +42,11 @@ pub struct InitialState {
     /// What else the model is given of the walls: of a vessel of helium, what their density sums would
     /// be in full surroundings.
     pub wall_given: Vec<GivenField>,
+    /// What is added to fields that the model makes of the first positions: of water at rest, what its
+    /// density has above the reference density.
+    pub added: Vec<GivenField>,
+    /// The same of walls.
+    pub wall_added: Vec<GivenField>,
 }
 
 /// First values of a field, in its SI unit or as a pure number.

@@ -20,8 +20,6 @@ struct Group<'a> {
 
 impl Scene {
     /// Compares the particles of every two regions where their bounds overlap.
-    ///
-    /// Two regions that do not interlock cost nothing beyond their bounds.
     pub(super) fn refuse_overlap(
         &self,
         state: &InitialState,
@@ -29,17 +27,45 @@ impl Scene {
     ) -> Result<(), SceneError> {
         let groups = self.groups(state, placed);
         let (bodies, _) = self.bodies();
-        for (position, first) in groups.iter().enumerate() {
-            for second in &groups[position + 1..] {
-                if self.solid.is_some() && bodies[first.number] != bodies[second.number] {
-                    self.refuse_near_bodies(first, second)?;
-                }
-                if self.overlap == Overlap::Refuse {
-                    self.refuse_near(first, second)?;
-                }
+        for [first, second] in self.near_each_other(&groups) {
+            let (first, second) = (&groups[first], &groups[second]);
+            if self.solid.is_some() && bodies[first.number] != bodies[second.number] {
+                self.refuse_near_bodies(first, second)?;
+            }
+            if self.overlap == Overlap::Refuse {
+                self.refuse_near(first, second)?;
             }
         }
         Ok(())
+    }
+
+    /// The pairs of groups whose boxes are within a support radius of each other, in their order.
+    ///
+    /// Boxes are sorted by their left sides, and each is compared with those that begin before it
+    /// ends: of many regions that lie beside each other only neighbours are compared.
+    fn near_each_other(&self, groups: &[Group<'_>]) -> Vec<[usize; 2]> {
+        let box_of = |(n, group): (usize, &Group<'_>)| {
+            let shape = self.regions[group.number]
+                .shape
+                .bounds(self.particle_spacing);
+            let both = [shape, bounds(group.points)].into_iter().flatten();
+            let around = both.reduce(around_both)?;
+            Some((grown(around, [0.5 * self.support_radius(); 3]), n))
+        };
+        let mut boxes: Vec<(AxisBox, usize)> =
+            groups.iter().enumerate().filter_map(box_of).collect();
+        boxes.sort_by(|a, b| a.0.0[0].total_cmp(&b.0.0[0]));
+        let mut pairs = Vec::new();
+        for (position, (first, n)) in boxes.iter().enumerate() {
+            let others = boxes[position + 1..].iter();
+            for (second, m) in others.take_while(|(second, _)| second.0[0] <= first.1[0]) {
+                if overlap(*first, *second).is_some() {
+                    pairs.push([*n.min(m), *n.max(m)]);
+                }
+            }
+        }
+        pairs.sort_unstable();
+        pairs
     }
 
     /// The particles by regions.

@@ -10,9 +10,9 @@
 //! Source: Kincl & Pavelka, Comput. Phys. Commun. 284 (2023) 108593, sections 2 to 4.
 
 use super::energy;
-use super::fields::{DENSITY, fields};
+use super::fields::{CONSTANT, DENSITY, fields};
 use super::parameters::Parameters;
-use super::updates::{AddConstant, BareFixedPart, FixedPart};
+use super::updates::{AddConstant, FixedPart};
 use super::water::Water;
 use crate::executor::Executor;
 use crate::fault::Fault;
@@ -51,23 +51,6 @@ impl<A: Arithmetic, const D: usize> Symplectic<A, D> {
         exec.points(&AddConstant, &mut system.particles)?;
         self.water.dummy_densities(system, exec)
     }
-
-    /// Sorts the walls, and sums what dummies add to each other's density; whether there are any.
-    fn densities_among_dummies<E: Executor>(
-        &self,
-        system: &mut System<'_, A, D>,
-        exec: &E,
-    ) -> Result<bool, Fault> {
-        system.prepare_walls();
-        system.locate_walls(exec);
-        if !self.water.has_dummies(system) {
-            return Ok(false);
-        }
-        exec.points(&self.water.own(), &mut system.walls)?;
-        let of_walls = Sum::to_walls(Side::Walls, &[], DENSITY);
-        system.sum(exec, &self.water.density_pass(), of_walls)?;
-        Ok(true)
-    }
 }
 
 impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
@@ -85,27 +68,30 @@ impl<A: Arithmetic, const D: usize> Model<A, D> for Symplectic<A, D> {
         system: &mut System<'_, A, D>,
         exec: &E,
     ) -> Result<(), Fault> {
-        if self.densities_among_dummies(system, exec)? {
-            exec.points(&FixedPart, &mut system.walls)?;
+        system.prepare_walls();
+        system.locate_walls(exec);
+        if !self.water.has_dummies(system) {
+            return Ok(());
         }
-        Ok(())
+        exec.points(&self.water.own(), &mut system.walls)?;
+        let of_walls = Sum::to_walls(Side::Walls, &[], DENSITY);
+        system.sum(exec, &self.water.density_pass(), of_walls)?;
+        exec.points(&FixedPart, &mut system.walls)
     }
 
-    /// C_a ← ρ0 - Σ m W, and what was given.
+    /// C_a ← ρ0 - Σ m W.
     fn initialise<E: Executor>(
         &self,
         system: &mut System<'_, A, D>,
         exec: &E,
     ) -> Result<(), Fault> {
         system.clock.initialised = true;
-        let has_dummies = self.densities_among_dummies(system, exec)?;
-        if has_dummies {
-            exec.points(&BareFixedPart, &mut system.walls)?;
-        }
+        system.walls.words_mut(CONSTANT).fill_with(Default::default);
+        self.place_walls(system, exec)?;
         self.water.locate(system, exec);
         self.water.bare_densities(system, exec)?;
         exec.points(&self.water.constants(), &mut system.particles)?;
-        if has_dummies {
+        if self.water.has_dummies(system) {
             self.water.dummy_densities(system, exec)?;
             exec.points(&self.water.constants(), &mut system.walls)?;
             self.place_walls(system, exec)?;

@@ -43,8 +43,7 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for AddConstant {
     }
 }
 
-/// C_a ← C_a + ρ0 - Σ m W, or 0 where there is no correction. What C_a is before is what the first
-/// density is to have above ρ0: nothing, unless it was given.
+/// C_a ← ρ0 - Σ m W, or 0 where there is no correction.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants<W> {
     /// In density quanta.
@@ -59,14 +58,14 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for Constants<A::Word> {
     #[inline(always)]
     fn at(&self, _: u64, sum: &A::Word, constant: &mut A::Word) -> Result<(), Fault> {
         *constant = match self.reference {
-            Some(reference) => constant.plus(reference).plus(sum.negated()),
+            Some(reference) => reference.plus(sum.negated()),
             None => A::Word::ZERO,
         };
         Ok(())
     }
 }
 
-/// One density field becomes another, plus C_a.
+/// One density field becomes another, plus C_a or not.
 #[derive(Clone, Copy, Debug)]
 pub struct FixedPart;
 
@@ -78,22 +77,6 @@ impl<A: Arithmetic, const D: usize> PointPass<A, D> for FixedPart {
     #[inline(always)]
     fn at(&self, _: u64, [sum, c]: &[A::Word; 2], fixed: &mut A::Word) -> Result<(), Fault> {
         *fixed = sum.plus(*c);
-        Ok(())
-    }
-}
-
-/// One density field becomes another.
-#[derive(Clone, Copy, Debug)]
-pub struct BareFixedPart;
-
-impl<A: Arithmetic, const D: usize> PointPass<A, D> for BareFixedPart {
-    type Read<T: Copy> = T;
-    type Write<T: Copy> = T;
-    const READ: &'static [usize] = &[DENSITY];
-    const WRITE: &'static [usize] = &[FIXED_DENSITY];
-    #[inline(always)]
-    fn at(&self, _: u64, sum: &A::Word, fixed: &mut A::Word) -> Result<(), Fault> {
-        *fixed = *sum;
         Ok(())
     }
 }
