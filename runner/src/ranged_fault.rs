@@ -1,5 +1,6 @@
 //! How a simulation ends before its end, in words: with the range of the numbers that it left.
 
+use crate::figures::quantity;
 use crate::player::Player;
 use loschmidt_core::{Fault, FaultKind};
 use std::fmt;
@@ -30,8 +31,8 @@ impl fmt::Display for RangedFault {
         if self.fault.kind == FaultKind::PositionRange {
             write!(
                 f,
-                ", {} m from the origin along an axis; the key `domain` sets it",
-                self.range
+                ", {} from the origin along an axis; the key `domain` sets it",
+                quantity(self.range, "m", 4)
             )?;
         }
         Ok(())

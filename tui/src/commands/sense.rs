@@ -1,6 +1,7 @@
 //! What `check` says of the sense of a scene: how much of the number range it uses, how well its
 //! shapes are filled, and whether walls and sound suit the flow.
 
+use loschmidt_runner::figures::{number, quantity};
 use loschmidt_runner::scene::{
     Dimension, Filled, InitialState, LatticeKind, Scene, stretched_density,
 };
@@ -34,56 +35,61 @@ pub fn lines(scene: &Scene, initial: &InitialState) -> String {
     }
     let (c, v) = (scene.sound_speed(), sense.speed);
     if v > 0.0 {
-        line("fastest flow", format!("about {v:.4} m/s to be expected"));
-        line(
-            "  speed of sound",
-            format!(
-                "{c} m/s, {:.1} times that{}",
-                c / v,
-                if c >= WANTED * v {
-                    ", kept (ten times)".to_owned()
-                } else {
-                    let percent = 100.0 * (v / c).powi(2);
-                    format!(": TOO LOW (ten times), the density changes by about {percent:.1} %")
-                }
-            ),
-        );
+        let flow = quantity(v, "m/s", 4);
+        line("fastest flow", format!("about {flow} to be expected"));
+        line("  speed of sound", sound(c, v));
     }
     if let Some(wall) = sense.wall.filter(|_| v > 0.0) {
-        let energy = sense.energy();
-        let times = wall.energy / energy;
-        line(
-            "  wall energy",
-            if wall.energy >= WANTED * energy {
-                format!(
-                    "{} J/kg, {times:.1} times that of the flow, kept (ten times)",
-                    wall.energy
-                )
-            } else {
-                format!(
-                    "{} J/kg, {times:.1} times that of the flow: TOO LOW (ten times, {:.4} J/kg)",
-                    wall.energy,
-                    WANTED * energy
-                )
-            },
-        );
-        line(
-            "  wall gaps",
-            if wall.barrier > energy {
-                format!(
-                    "{:.4} J/kg between wall particles, above the {energy:.4} J/kg of the flow, kept",
-                    wall.barrier
-                )
-            } else {
-                format!(
-                    "{:.4} J/kg between wall particles, below the {energy:.4} J/kg of the flow: \
-                     HOLES, raise `wall.radius` or `wall.energy`",
-                    wall.barrier
-                )
-            },
-        );
+        line("  wall energy", depth(wall.energy, sense.energy()));
+        line("  wall gaps", gaps(wall.barrier, sense.energy()));
     }
     text
+}
+
+/// The speed of sound beside that of the flow, m/s.
+fn sound(c: f64, v: f64) -> String {
+    let verdict = if c >= WANTED * v {
+        ", kept (ten times)".to_owned()
+    } else {
+        let percent = number(100.0 * (v / c).powi(2), 2);
+        format!(": TOO LOW (ten times), the density changes by about {percent} %")
+    };
+    format!(
+        "{}, {} times that{verdict}",
+        quantity(c, "m/s", 4),
+        number(c / v, 3)
+    )
+}
+
+/// The energy of a wall beside that of the flow, J/kg.
+fn depth(energy: f64, flow: f64) -> String {
+    let verdict = if energy >= WANTED * flow {
+        ", kept (ten times)".to_owned()
+    } else {
+        format!(
+            ": TOO LOW (ten times, {})",
+            quantity(WANTED * flow, "J/kg", 4)
+        )
+    };
+    let times = number(energy / flow, 3);
+    format!(
+        "{}, {times} times that of the flow{verdict}",
+        quantity(energy, "J/kg", 4)
+    )
+}
+
+/// The energy of a wall where it is lowest beside that of the flow, J/kg.
+fn gaps(barrier: f64, flow: f64) -> String {
+    let (side, verdict) = if barrier > flow {
+        ("above", "kept")
+    } else {
+        ("below", "HOLES, raise `wall.radius` or `wall.energy`")
+    };
+    format!(
+        "{} between wall particles, {side} the {} of the flow: {verdict}",
+        quantity(barrier, "J/kg", 4),
+        quantity(flow, "J/kg", 4)
+    )
 }
 
 /// The lattices of the fluid, each once.
@@ -106,7 +112,10 @@ fn range(scene: &Scene, initial: &InitialState) -> String {
     } else {
         "the particles are expected within"
     };
-    format!("{range} m from the origin along each axis; {whose} {used:.0} % of it")
+    format!(
+        "{} from the origin along each axis; {whose} {used:.0} % of it",
+        quantity(range, "m", 4)
+    )
 }
 
 fn area(scene: &Scene, filled: &Filled) -> String {
@@ -121,8 +130,8 @@ fn area(scene: &Scene, filled: &Filled) -> String {
         ""
     };
     format!(
-        "particles for {:.4e} {unit}, {:+.1} % of its shape{verdict}",
-        filled.particles,
+        "particles for {}, {:+.1} % of its shape{verdict}",
+        quantity(filled.particles, unit, 4),
         100.0 * excess + 0.0
     )
 }
