@@ -245,6 +245,9 @@ fn a_state_that_cannot_be_kept_here_is_kept_elsewhere() {
     let environment = [("TMPDIR", elsewhere.as_str())];
     let mut terminal = start(place.path(), &SMALL, &environment, (200, 40));
     terminal.wait_for("step 3");
+    // Who has only watched leaves nothing.
+    terminal.type_keys("b");
+    terminal.wait_for("last bit flipped");
     terminal.type_keys("q");
     assert_eq!(terminal.ended_and_restored(), 0);
     let kept = "elsewhere/runs/dam-break-1";

@@ -59,6 +59,8 @@ fn assert_documented_keys(result: &Value) {
         "angular_momentum",
         "entropy",
         "lone_particles",
+        "largest_compression",
+        "beyond_walls",
         "wall_time_s",
         "ns_per_particle_step",
     ];

@@ -177,7 +177,7 @@ fn check_compares_walls_sound_and_shapes_with_the_flow() {
             "fluid.sound_speed=20",
             "TOO LOW (ten times), the density changes by about ",
         ),
-        ("particle_spacing=0.13", "does not fit the particle spacing"),
+        ("particle_spacing=0.15", "does not fit the particle spacing"),
     ] {
         let text = set(more);
         assert!(text.contains(warning), "{more}: {text}");
