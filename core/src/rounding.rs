@@ -11,10 +11,11 @@
 //!
 //! and is rounded once more, when it is added to the double it belongs to (Demmel & Nguyen, *Fast
 //! reproducible floating-point summation*, ARITH 2013). k follows from the largest magnitude that
-//! a term can have, the [bound](crate::pairs::PairPass::bound) of its pass, which has no order
-//! either: the bound has up to 51 bits, as many as a double has but for two, and a grain is never
-//! larger than a quantum. The terms of passes without a bound are few; they are taken in grains of
-//! 2^-60 quanta, in integers of 128 bits.
+//! this number of a term can have ([bounds](crate::pairs::PairPass::bounds)), which has no order
+//! either. The largest has up to 51 bits, of the 53 of a double, and a grain is never larger than a
+//! quantum, so that no floating-point sum is less exact than the fixed-point one. The terms with
+//! walls, and of passes without a bound, are few; they are taken in grains of 2^-60 quanta, in
+//! integers of 128 bits.
 
 use core::fmt::Debug;
 
