@@ -1,7 +1,7 @@
 //! What walls enclose: the places that a fluid can come to without passing a wall.
 //!
 //! The box around all particles is cut into cells half a spacing wide. A cell whose middle is nearer
-//! than [`THICK`] spacings to a wall particle belongs to the wall: rows a spacing apart leave no gap
+//! than 0.8 spacings to a wall particle belongs to the wall: rows a spacing apart leave no gap
 //! then, in the plane and in space. From the cells of the fluid the free ones are filled through
 //! their faces, as far as the box goes. Where the filling arrives at a side of the box, that side is
 //! open.
