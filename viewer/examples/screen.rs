@@ -29,11 +29,14 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let mut player = Player::new(scene.clone(), initial, Options::default())?;
         let home = Home::new(&scene, &player.frame()?);
         player.advance(step.parse()?)?;
-        let rect = field_of(&home, &picture);
+        let (rect, em) = field_of(&home, &picture);
         let mut points = Points::default();
         player.points(&mut points)?;
         let ours = field(&points, &home, &Look::default(), rect.width, rect.height);
-        let n = unequal(&picture.part(rect), &ours);
+        let n = unequal(
+            &without_scale(picture.part(rect), em),
+            &without_scale(ours.clone(), em),
+        );
         println!(
             "PNG and rasteriser at step {step}: {n} of {} pixels differ",
             ours.pixels().len()
@@ -44,9 +47,19 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
 }
 
 /// Where the particles are in a window of this picture's size.
-fn field_of(home: &Home, picture: &Raster) -> Rect {
+fn field_of(home: &Home, picture: &Raster) -> (Rect, usize) {
     let (width, height) = (picture.width(), picture.height());
-    Places::sized(home, &Look::default(), 1, 1.0, (width, height)).field
+    let places = Places::sized(home, &Look::default(), 1, 1.0, (width, height));
+    (places.field, places.em)
+}
+
+/// The field with its upper left corner blank, where the window has the length scale on top.
+fn without_scale(mut field: Raster, em: usize) -> Raster {
+    let width = field.width();
+    for line in field.pixels_mut().chunks_mut(width).take(4 * em) {
+        line.iter_mut().take(12 * em).for_each(|pixel| *pixel = 0);
+    }
+    field
 }
 
 fn unequal(a: &Raster, b: &Raster) -> usize {
