@@ -20,7 +20,8 @@ use super::backend::Work;
 use super::lanes::{Quad, ROW, Reals};
 use super::layout::{Crew, Layout, Strip};
 use super::memory::{Arguments, LIMIT, Memory};
-use super::sweep::{Leg, Sums, Sweep, add_received, contributors};
+use super::sums::{Sums, add_received, contributors};
+use super::sweep::{Leg, Sweep};
 use loschmidt_core::fields::{IMPULSE, POSITION};
 use loschmidt_core::number::{Grain, Quantity, larger};
 use loschmidt_core::pairs::{PairPass, grain_under};
@@ -282,6 +283,17 @@ impl<A: Arithmetic, const D: usize> Work for Going<'_, A, D> {
     type Output = Found;
     #[inline(always)]
     fn run<Q: Quad>(self, simd: Q) -> Found {
+        if A::EXACT {
+            self.go::<Q, false>(simd)
+        } else {
+            self.go::<Q, true>(simd)
+        }
+    }
+}
+
+impl<A: Arithmetic, const D: usize> Going<'_, A, D> {
+    #[inline(always)]
+    fn go<Q: Quad, const FINE: bool>(self, simd: Q) -> Found {
         let layout = self.layout;
         let mut found = Found::default();
         let reached = layout.rows_reached::<D>(&self.strips);
@@ -305,14 +317,14 @@ impl<A: Arithmetic, const D: usize> Work for Going<'_, A, D> {
             let mut fresh = std::mem::take(&mut self.arguments[s % 3]);
             let known = std::mem::take(&mut self.arguments[(s + 1) % 3]);
             let words = (&*self.words, row_from);
-            let mut first = Leg::<DensityPass, D>::new(
+            let mut first = Leg::<DensityPass, D, FINE>::new(
                 &self.kick.density,
                 layout,
                 now,
                 (&[], 0),
                 (firsts, &[fine]),
             );
-            let mut second = Leg::<PressurePass, D>::new(
+            let mut second = Leg::<PressurePass, D, FINE>::new(
                 &self.kick.pressure,
                 layout,
                 past,
@@ -358,7 +370,8 @@ impl<const D: usize> Work for Rest<'_, D> {
         for s in self.strips.filter(|s| !inner.contains(s)) {
             let words = (self.words, 0);
             let sums = (&mut *self.sums, self.grains);
-            Leg::<PressurePass, D>::new(self.pass, layout, Some(s), words, sums).alone(simd);
+            // Few strips: not compiled for whole quanta too.
+            Leg::<PressurePass, D, true>::new(self.pass, layout, Some(s), words, sums).alone(simd);
         }
     }
 }

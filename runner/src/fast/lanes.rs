@@ -3,10 +3,11 @@
 //! Four doubles fill a register of AVX2. AVX-512 has registers of eight, but rows of eight
 //! particles hold more that are out of reach than the wider arithmetic makes up for (measured at 28
 //! neighbours: 36 lanes a particle instead of 28, and the square root takes the same time a lane);
-//! what it adds here is the conversion to integers in one instruction, and twice the registers. The
+//! what it adds here is the conversion to integers in one instruction, which whole quanta need no
+//! more than, and twice the registers. The
 //! baseline is plain arrays, which the compiler turns into pairs of SSE2.
 
-use loschmidt_core::number::Lanes;
+use loschmidt_core::number::{Grain, Lanes};
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Particles in a row.
@@ -43,8 +44,15 @@ pub(super) trait Quad: Copy + Send + Sync {
     fn positive_part(self, a: Self::R) -> Self::R;
     /// Lanes of a where that of x is below that of the limit, else 0.
     fn where_below(self, a: Self::R, x: Self::R, limit: Self::R) -> Self::R;
+    /// Whether [`Quad::convert`] is an instruction of its own.
+    const CONVERTS: bool;
+    /// The nearest integers, ties to even, for magnitudes below 2^51.
+    #[inline(always)]
+    fn convert(self, a: Self::R) -> Self::I {
+        self.round(a, self.splat(Grain::QUANTUM.rounder()))
+    }
     /// The nearest numbers of grains, ties to even, for magnitudes below 2^51 of them; `rounder` is
-    /// that of the [grain](loschmidt_core::number::Grain).
+    /// that of the [`Grain`].
     fn round(self, a: Self::R, rounder: Self::R) -> Self::I;
     fn plus(self, a: Self::I, b: Self::I) -> Self::I;
     fn minus(self, a: Self::I, b: Self::I) -> Self::I;
@@ -71,6 +79,7 @@ macro_rules! lanewise {
 impl Quad for Plain {
     type R = [f64; ROW];
     type I = [i64; ROW];
+    const CONVERTS: bool = false;
     #[inline(always)]
     fn load(self, row: Reals) -> Self::R {
         row.0
@@ -140,13 +149,16 @@ impl Quad for Plain {
     }
 }
 
-/// The operations of AVX2, which AVX-512 includes.
+/// The operations of AVX2, which AVX-512 includes, and what else there is.
 #[cfg(target_arch = "x86_64")]
 macro_rules! quad_of_avx {
-    ($token:ty) => {
+    ($token:ty, $converts:literal $(, $conversion:item)?) => {
         impl Quad for $token {
             type R = pulp::f64x4;
             type I = pulp::i64x4;
+            const CONVERTS: bool = $converts;
+            $(#[inline(always)]
+            $conversion)?
             #[inline(always)]
             fn load(self, row: Reals) -> Self::R {
                 pulp::cast(row.0)
@@ -225,9 +237,17 @@ macro_rules! quad_of_avx {
 }
 
 #[cfg(target_arch = "x86_64")]
-quad_of_avx!(pulp::x86::V3);
+quad_of_avx!(pulp::x86::V3, false);
+
+// Rounds as the processor is set to: to nearest, ties to even, as every Rust program runs.
 #[cfg(target_arch = "x86_64")]
-quad_of_avx!(pulp::x86::V4);
+quad_of_avx!(
+    pulp::x86::V4,
+    true,
+    fn convert(self, a: Self::R) -> Self::I {
+        pulp::cast(self.avx512dq._mm256_cvtpd_epi64(pulp::cast(a)))
+    }
+);
 
 /// Four doubles with the instructions that work on them: what a pair term is evaluated in.
 #[derive(Clone, Copy)]

@@ -2,7 +2,7 @@
 
 use super::lanes::{ROW, Reals};
 use super::layout::Layout;
-use super::sweep::Sums;
+use super::sums::Sums;
 use super::walls::NearWalls;
 use loschmidt_core::Arithmetic;
 use loschmidt_core::number::larger;

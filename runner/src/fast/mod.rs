@@ -23,6 +23,7 @@ mod layout;
 mod making;
 mod meets;
 mod memory;
+mod sums;
 mod sweep;
 mod walls;
 
@@ -49,7 +50,8 @@ use std::any::Any;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use sweep::{Sweep, add_received, contributors};
+use sums::{add_received, contributors};
+use sweep::Sweep;
 
 /// Vectorised half-pair sweeps on strips.
 #[derive(Debug)]

@@ -14,7 +14,8 @@ use super::backend::Work;
 use super::lanes::{Pack, Quad, ROW, Reals, Words};
 use super::layout::{Layout, Strip};
 use super::meets::{Meeting, Meets, step};
-use loschmidt_core::number::{Arithmetic, Grain, PairSum};
+use super::sums::Sums;
+use loschmidt_core::number::Grain;
 use loschmidt_core::pairs::{PairPass, Parity, read_count, term_count};
 use loschmidt_core::values::Values;
 use std::ops::Range;
@@ -27,84 +28,14 @@ const AFTER: [Reals; ROW] = [
     Reals([1e36, 1e36, 1e36, 1e36]),
 ];
 
-/// Sums by row of slots.
-#[derive(Debug, Default)]
-pub(super) struct Sums {
-    /// Components of row `first_row`, then those of the next.
-    pub rows: Vec<Words>,
-    /// First row that has sums.
-    pub first_row: usize,
-    /// Records of the particles of the strip at hand, see [`Leg`].
-    records: Vec<Words>,
-}
-
-impl Sums {
-    /// Zeroes for `components` in each of these rows.
-    pub fn clear(&mut self, rows: Range<usize>, components: usize) {
-        self.first_row = rows.start;
-        self.rows.clear();
-        self.rows.resize(rows.len() * components, Words::default());
-    }
-
-    /// Room for `components` in each of these rows, whatever is in it.
-    pub fn prepare(&mut self, rows: Range<usize>, components: usize) {
-        self.first_row = rows.start;
-        self.rows.resize(rows.len() * components, Words::default());
-    }
-
-    /// Zeroes in these rows, as far as there is room for them.
-    pub fn clear_some(&mut self, rows: Range<usize>, components: usize) {
-        let place = |row: usize| ((row - self.first_row) * components).min(self.rows.len());
-        let rows = place(rows.start)..place(rows.end);
-        self.rows[rows].fill(Words::default());
-    }
-
-    /// Component k of a slot.
-    #[inline(always)]
-    pub fn of(&self, components: usize, slot: usize, k: usize) -> i64 {
-        self.rows[(slot / ROW - self.first_row) * components + k].0[slot % ROW]
-    }
-}
-
-/// Those of the sums, one for each part, to which this strip belongs.
-pub(super) fn contributors<'a>(
-    components: usize,
-    sums: &[&'a Sums],
-    strip: &Strip,
-) -> Vec<&'a Sums> {
-    let row = strip.slot / ROW;
-    let covers = |sums: &&&Sums| {
-        row.checked_sub(sums.first_row)
-            .is_some_and(|row| row * components < sums.rows.len())
-    };
-    sums.iter().filter(covers).copied().collect()
-}
-
-/// Adds what a slot has received in all parts.
-#[inline(always)]
-pub(super) fn add_received<A: Arithmetic>(
-    words: &mut [A::Word],
-    grains: &[Grain],
-    contributors: &[&Sums],
-    slot: usize,
-) {
-    let components = words.len();
-    for (k, word) in words.iter_mut().enumerate() {
-        let mut received = 0i64;
-        for sums in contributors {
-            received = received.wrapping_add(sums.of(components, slot, k));
-        }
-        *word = A::Sum::grains_added_to(received, grains[k], *word);
-    }
-}
-
-/// A pass over one strip. All slices begin with its first row.
+/// A pass over one strip. All slices begin with its first row. FINE where grains may be finer than
+/// quanta.
 ///
 /// Each particle of the strip has a *record* for its part as i: a row or more with its coordinates
 /// and what is read of it (as bits), and a row for what each lane has given it, for each number of
 /// the term. All of it is at one address; with separate arrays a third of the instructions of a
 /// pair computed addresses.
-pub(super) struct Leg<'a, P: PairPass<D>, const D: usize> {
+pub(super) struct Leg<'a, P: PairPass<D>, const D: usize, const FINE: bool> {
     pass: &'a P,
     /// Round each number to its grain.
     rounders: P::Term<f64>,
@@ -140,7 +71,7 @@ impl<Q: Quad> Argument<Q> for Known {
     }
 }
 
-impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
+impl<'a, P: PairPass<D>, const D: usize, const FINE: bool> Leg<'a, P, D, FINE> {
     /// Numbers read of each particle, and numbers of a term.
     const READ: usize = read_count::<P, D>();
     const TERM: usize = term_count::<P, D>();
@@ -261,8 +192,12 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
         );
         let term = self.pass.term(&x_ij, argument, &read_i, &read_j);
         for c in 0..Self::TERM {
-            let rounder = simd.splat(self.rounders.get(c));
-            let rounded = simd.round(term.get(c).row, rounder);
+            let number = term.get(c).row;
+            let rounded = if FINE || !Q::CONVERTS {
+                simd.round(number, simd.splat(self.rounders.get(c)))
+            } else {
+                simd.convert(number)
+            };
             // SAFETY: there are TERM rows of sums, and as many in a record after its head. No other
             // reference to either is in use.
             let (sum, received) = unsafe { (&mut *sums.add(c), &mut *record.add(Self::HEAD + c)) };
@@ -325,7 +260,7 @@ impl<'a, P: PairPass<D>, const D: usize> Leg<'a, P, D> {
         &mut self,
         simd: Q,
         fresh: &mut [Reals],
-        second: &mut Leg<'_, P2, D>,
+        second: &mut Leg<'_, P2, D, FINE>,
         known: &[Reals],
     ) {
         let (own, others) = fresh.split_at_mut(self.strip.len);
@@ -432,15 +367,27 @@ pub(super) struct Sweep<'a, P: PairPass<D>, const D: usize> {
     pub grains: &'a [Grain],
 }
 
-impl<P: PairPass<D>, const D: usize> Work for Sweep<'_, P, D> {
-    type Output = ();
+impl<P: PairPass<D>, const D: usize> Sweep<'_, P, D> {
     #[inline(always)]
-    fn run<Q: Quad>(self, simd: Q) {
+    fn go<Q: Quad, const FINE: bool>(self, simd: Q) {
         let layout = self.layout;
         for s in self.strips {
             let words = (self.words, 0);
             let sums = (&mut *self.sums, self.grains);
-            Leg::<P, D>::new(self.pass, layout, Some(s), words, sums).alone(simd);
+            Leg::<P, D, FINE>::new(self.pass, layout, Some(s), words, sums).alone(simd);
+        }
+    }
+}
+
+impl<P: PairPass<D>, const D: usize> Work for Sweep<'_, P, D> {
+    type Output = ();
+    #[inline(always)]
+    fn run<Q: Quad>(self, simd: Q) {
+        // Compiled once where there is no other way to round whole quanta.
+        if Q::CONVERTS && self.grains.iter().all(|grain| *grain == Grain::QUANTUM) {
+            self.go::<Q, false>(simd);
+        } else {
+            self.go::<Q, true>(simd);
         }
     }
 }
